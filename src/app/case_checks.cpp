@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <cmath>
+
+#include "app/case_codec.hpp"
+#include "app/shape_checks.hpp"
+#include "core/errors.hpp"
+
+namespace quicksand {
+
+namespace {
+
+/// Most cells of a grid: beyond this no machine that this is meant for could hold the fields.
+constexpr double most_cells = 2e9;
+
+void check_axis(const std::vector<AxisSegment>& segments, const std::string& path, Reading& reading) {
+  if (segments.empty() || !reading.clean(path)) return;
+  const bool list = reading.nearest(path).kind == ConfigNode::Kind::list;
+  double before = 0;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const AxisSegment& segment = segments[i];
+    const std::string place = list ? child_path(path, i) : path;
+    if (i == 0 && !segment.from) {
+      reading.problem(place + ".from", "is required but missing: where the axis begins");
+      continue;
+    }
+    const double from = segment.from.value_or(before);
+    if (i > 0 && std::abs(from - before) > 1e-12 * std::max(std::abs(from), std::abs(before))) {
+      reading.problem(place + ".from", "must be where the segment before ends, " + shortest(before) + ", not " +
+                                           shortest(from) + " (or leave it out)");
+    }
+    if (!(from < segment.to)) {
+      reading.problem(place + ".to", "must be greater than from = " + shortest(from) + ", not " + shortest(segment.to));
+    }
+    before = segment.to;
+  }
+  if (!reading.clean(path)) return;
+  try {
+    make_faces(segments);
+  } catch (const InputError& error) {
+    reading.problem(path, error.what());
+  }
+}
+
+void check_grid(const GridConfig& grid, Reading& reading) {
+  if (reading.root().find("grid") == nullptr || !reading.clean("grid.dimension")) return;
+  if (grid.dimension == 3) {
+    if (reading.clean("grid.y") && grid.y.empty()) reading.problem("grid.y", "is required but missing: in 3-D");
+    if (grid.geometry == Geometry::axisymmetric) {
+      reading.problem("grid.geometry", "axisymmetric needs dimension: 2");
+    }
+    check_axis(grid.y, "grid.y", reading);
+  } else if (!grid.y.empty()) {
+    reading.problem("grid.y", "dimension: 2 has no y; its axes are x and z");
+  }
+  check_axis(grid.x, "grid.x", reading);
+  check_axis(grid.z, "grid.z", reading);
+  if (grid.geometry == Geometry::axisymmetric && reading.clean("grid.x") && !grid.x.empty() &&
+      grid.x.front().from.value_or(0) < 0) {
+    reading.problem("grid.x", "must not begin at a negative radius, " + shortest(*grid.x.front().from));
+  }
+  double cells = 1;
+  for (const auto* axis : {&grid.x, &grid.y, &grid.z}) {
+    double sum = 0;
+    for (const AxisSegment& segment : *axis) sum += segment.cells;
+    if (!axis->empty()) cells *= sum;
+  }
+  if (cells > most_cells) reading.problem("grid", "has " + shortest(cells) + " cells; at most " + shortest(most_cells));
+}
+
+void check_boundaries(const CaseConfig& config, Reading& reading) {
+  const GridConfig& grid = config.grid;
+  const Boundaries& b = config.boundaries;
+  const ConfigNode* given = reading.root().find("boundaries");
+  if (given == nullptr || given->kind != ConfigNode::Kind::map || !reading.clean("grid.dimension")) return;
+  const struct {
+    const char* name;
+    const std::optional<Side>& side;
+    bool exists;
+  } sides[] = {{"x_min", b.x_min, true},
+               {"x_max", b.x_max, true},
+               {"y_min", b.y_min, grid.dimension == 3},
+               {"y_max", b.y_max, grid.dimension == 3},
+               {"z_min", b.z_min, true},
+               {"z_max", b.z_max, true}};
+  const bool axisymmetric = grid.geometry == Geometry::axisymmetric;
+  const bool has_axis = axisymmetric && !grid.x.empty() && grid.x.front().from == 0.0;
+  for (const auto& [name, side, exists] : sides) {
+    const std::string path = std::string("boundaries.") + name;
+    if (side && !exists) reading.problem(path, "dimension: 2 has no y; its sides are x_min, x_max, z_min, z_max");
+    if (!side && exists) {
+      reading.problem(path, "is required but missing: one of axis, symmetry, free_slip, no_slip, {open: PRESSURE}");
+    }
+    if (!side || !exists || !reading.clean(path) || !reading.clean("grid")) continue;
+    const bool is_axis = side->kind == SideKind::axis;
+    if (is_axis && (!has_axis || path != "boundaries.x_min")) {
+      reading.problem(path, "axis is for x_min of an axisymmetric grid that begins at x = 0; a plane of symmetry is symmetry");
+    }
+    if (!is_axis && has_axis && path == "boundaries.x_min") {
+      reading.problem(path, "must be axis: the axisymmetric grid begins at x = 0");
+    }
+  }
+}
+
+void check_species(const std::vector<Species>& species, Reading& reading) {
+  for (std::size_t i = 0; i < species.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (species[i].name.empty() || species[i].name != species[j].name) continue;
+      const std::string first = child_path("species", j) + ".name";
+      reading.problem(child_path("species", i) + ".name", in_quotes(species[i].name) + " is the name of another species too, " +
+                                                              to_string(reading.nearest(first).place));
+    }
+  }
+}
+
+void check_time(const TimeSettings& time, Reading& reading) {
+  if (reading.nearest("time").kind != ConfigNode::Kind::map || reading.nearest("time").path.empty()) return;
+  // Whether keys are present can be judged even where their values are wrong.
+  if (time.step && time.cfl) reading.problem("time.cfl", "give either step or cfl with max_step, not both");
+  if (!time.step && !time.cfl) reading.problem("time.step", "is required but missing: give step, or cfl with max_step");
+  if (time.cfl && !time.max_step) reading.problem("time.max_step", "is required but missing: largest step, with cfl");
+  if (!time.cfl && time.max_step) reading.problem("time.max_step", "goes with cfl only");
+  if (!time.cfl && time.min_step) reading.problem("time.min_step", "goes with cfl only");
+  if (!reading.clean("time.step") || !reading.clean("time.end")) return;
+  if (time.step && *time.step > time.end) {
+    reading.problem("time.step", "must not be longer than the run, " + shortest(time.end));
+  }
+  if (!reading.clean("time.min_step") || !reading.clean("time.max_step")) return;
+  if (time.min_step && time.max_step && *time.min_step > *time.max_step) {
+    reading.problem("time.min_step", "must not be greater than max_step = " + shortest(*time.max_step));
+  }
+}
+
+void check_output(const CaseConfig& config, Reading& reading) {
+  const OutputSchedule& fields = config.output.fields;
+  const std::string path = "output.fields.times";
+  if (fields.every && !fields.times.empty()) reading.problem(path, "give either every or times, not both");
+  if (!reading.clean(path)) return;
+  for (std::size_t i = 0; i < fields.times.size(); ++i) {
+    if (i > 0 && !(fields.times[i] > fields.times[i - 1])) {
+      reading.problem(child_path(path, i), "times must increase: " + shortest(fields.times[i]) + " comes after " +
+                                               shortest(fields.times[i - 1]));
+    }
+    if (reading.clean("time.end") && config.time.end > 0 && fields.times[i] > config.time.end) {
+      reading.problem(child_path(path, i), "is after the end of the run, " + shortest(config.time.end));
+    }
+  }
+}
+
+}  // namespace
+
+void check_case(const CaseConfig& config, Reading& reading) {
+  check_grid(config.grid, reading);
+  check_boundaries(config, reading);
+  const bool axisymmetric = config.grid.geometry == Geometry::axisymmetric;
+  if (axisymmetric && reading.clean("gravity") && (config.gravity[0] != 0 || config.gravity[1] != 0)) {
+    reading.problem("gravity", "must point along z in axisymmetric cases");
+  }
+  check_species(config.species, reading);
+  check_initial(config, reading);
+  check_time(config.time, reading);
+  check_output(config, reading);
+}
+
+}  // namespace quicksand

@@ -1,0 +1,125 @@
+#pragma once
+/// \file
+/// A case as its user describes it in YAML, complete with defaults and checked.
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/shapes.hpp"
+#include "core/boundary.hpp"
+#include "core/grid.hpp"
+#include "core/units.hpp"
+#include "physics/solver_settings.hpp"
+#include "physics/species.hpp"
+
+namespace quicksand {
+
+/// How cell widths change along a segment of an axis: all equal, or in geometric progression from the neighbour's width.
+enum class Stretch { uniform, smooth };
+
+/// Part of an axis.
+struct AxisSegment {
+  std::optional<double> from;  ///< end of the segment before, where absent
+  double to = 0;
+  int cells = 0;
+  Stretch stretch = Stretch::uniform;
+};
+
+struct GridConfig {
+  int dimension = 2;
+  Geometry geometry = Geometry::planar;  ///< planar in 3-D too; geometry_of() gives the grid's
+  std::vector<AxisSegment> x;
+  std::vector<AxisSegment> y;  ///< empty in two dimensions
+  std::vector<AxisSegment> z;
+};
+
+/// The sides of the domain; those of y only in 3-D.
+struct Boundaries {
+  std::optional<Side> x_min, x_max, y_min, y_max, z_min, z_max;
+};
+
+/// A shape filled with a species, moving with a uniform velocity.
+struct InitialFill {
+  std::string fill;  ///< name of the species
+  Shape shape;
+  Vec<3> velocity;
+};
+
+/// End of the run and size of its steps: either fixed, or by the CFL number with an upper limit.
+struct TimeSettings {
+  double end = 0;
+  std::optional<double> step;
+  std::optional<double> cfl;
+  std::optional<double> max_step;  ///< present with cfl
+  std::optional<double> min_step;  ///< may be present with cfl
+};
+
+/// When something is written: at multiples of `every`, or at the given times (increasing); neither: start and end only.
+struct OutputSchedule {
+  std::optional<double> every;
+  std::vector<double> times;
+};
+
+struct OutputSettings {
+  std::string directory = "results";
+  OutputSchedule fields;
+  bool history = true;
+};
+
+struct CaseConfig {
+  std::string title;
+  UnitSystem units = UnitSystem::si;
+  GridConfig grid;
+  Boundaries boundaries;
+  Vec<3> gravity;  ///< acceleration (x, y, z)
+  double ambient_pressure = 0;
+  std::vector<Species> species;
+  std::vector<InitialFill> initial;
+  TimeSettings time;
+  SolverSettings solver;
+  OutputSettings output;
+};
+
+/// Reads and checks a case file, with `KEY.PATH=VALUE` settings put over it.
+/// \throws InputError naming every problem with file, line, column and key
+CaseConfig read_case(const std::string& file, const std::vector<std::string>& settings = {});
+
+/// As read_case(), from text; `source` names it in messages.
+CaseConfig parse_case(const std::string& text, const std::string& source, const std::vector<std::string>& settings = {});
+
+/// The case as YAML with every default filled in; reads back to the same case.
+std::string to_yaml(const CaseConfig& config);
+
+/// JSON Schema (draft 2020-12) of case files.
+std::string case_schema();
+
+/// The grid's geometry (cartesian in 3-D).
+Geometry geometry_of(const GridConfig& config);
+
+/// Face coordinates of an axis made of segments.
+/// \throws InputError where a smooth segment can't match its neighbour
+std::vector<double> make_faces(const std::vector<AxisSegment>& segments);
+
+/// The box of space that the grid fills; y is [0, 1] in two dimensions.
+Extent domain_of(const GridConfig& config);
+
+/// Grid of a case. \pre config.dimension == Dim
+template <int Dim>
+Grid<Dim> make_grid(const GridConfig& config);
+
+/// Sides of a case's domain.
+template <int Dim>
+Sides<Dim> make_sides(const CaseConfig& config);
+
+/// Vector (x, y, z) in the axes of a grid: (x, z) in two dimensions.
+template <int Dim>
+Vec<Dim> in_axes(const Vec<3>& v) {
+  Vec<Dim> out;
+  for (int d = 0; d < Dim; ++d) out[d] = v[d];
+  out[Dim - 1] = v[2];
+  return out;
+}
+
+}  // namespace quicksand

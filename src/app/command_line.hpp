@@ -1,0 +1,34 @@
+#pragma once
+/// \file
+/// The program's commands and options.
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "app/run.hpp"
+
+namespace quicksand {
+
+enum class Command { run, check, show, schema, info, version, help };
+
+/// What the user asked for.
+struct CommandLine {
+  Command command = Command::help;
+  std::string path;                   ///< case file, or for info a result folder or field file
+  std::vector<std::string> settings;  ///< of --set, in order
+  RunOptions run;
+};
+
+/// Reads the arguments after the program's name.
+/// \throws InputError on unknown commands and options, naming the nearest one
+CommandLine parse_command_line(const std::vector<std::string>& arguments);
+
+/// The help text.
+std::string usage();
+
+/// Does what the user asked for; text goes to `out`, warnings to `err`.
+/// \return exit code of the program
+/// \throws InputError, NumericalError, FileError
+int execute(const CommandLine& line, std::ostream& out, std::ostream& err);
+
+}  // namespace quicksand

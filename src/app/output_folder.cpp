@@ -1,0 +1,53 @@
+#include "app/output_folder.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "core/errors.hpp"
+
+namespace quicksand {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether a run writes files of that name.
+bool is_result(const fs::path& file) {
+  const std::string name = file.filename().string();
+  if (name == "case.yaml" || name == "summary.json" || name == "history.csv" || name == "fields.xdmf") return true;
+  return file.extension() == ".h5" && (name.starts_with("fields_") || name.starts_with("checkpoint_"));
+}
+
+void remove_results(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (is_result(entry.path())) fs::remove(entry.path());
+  }
+}
+
+void check_writable(const fs::path& folder) {
+  const fs::path probe = folder / ".quicksand_probe";
+  if (!std::ofstream(probe)) throw FileError("output folder " + folder.string() + ": no permission to write");
+  fs::remove(probe);
+}
+
+}  // namespace
+
+void prepare_output_folder(const std::string& folder, bool overwrite) {
+  try {
+    if (fs::exists(folder) && !fs::is_directory(folder)) {
+      throw FileError("output folder " + folder + ": a file has this name");
+    }
+    if (fs::exists(folder) && !fs::is_empty(folder) && !overwrite) {
+      throw InputError("output folder " + folder + " is not empty: choose another with --output, or replace the results " +
+                       "in it with --overwrite");
+    }
+    fs::create_directories(folder);
+    check_writable(folder);
+    if (overwrite) remove_results(folder);
+  } catch (const fs::filesystem_error& error) {
+    throw FileError("output folder " + folder + ": " + error.code().message());
+  }
+}
+
+}  // namespace quicksand

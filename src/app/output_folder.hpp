@@ -1,0 +1,14 @@
+#pragma once
+/// \file
+/// The folder of a run's results before the run.
+#include <string>
+
+namespace quicksand {
+
+/// Makes the folder ready: creates it where missing, checks that it may be written to, and with `overwrite` removes the
+/// results of an earlier run (only files that runs write).
+/// \throws InputError if the folder holds something and `overwrite` is false
+/// \throws FileError if it can't be made or written to
+void prepare_output_folder(const std::string& folder, bool overwrite);
+
+}  // namespace quicksand

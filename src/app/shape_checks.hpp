@@ -1,0 +1,13 @@
+#pragma once
+/// \file
+/// Whether the initial shapes of a case make sense.
+#include "app/case_config.hpp"
+#include "core/config_codec.hpp"
+
+namespace quicksand {
+
+/// Notes fills of unknown species, shapes that are degenerate, reach beyond the grid or overlap, and velocities that the
+/// geometry forbids.
+void check_initial(const CaseConfig& config, Reading& reading);
+
+}  // namespace quicksand

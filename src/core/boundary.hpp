@@ -1,0 +1,89 @@
+#pragma once
+/// \file
+/// Sides of the domain and the ghost rules that follow from their kind.
+///
+/// A ghost value is affine in its mirror cell, ghost = alpha * mirror + beta, so that the same rule fills ghost cells and
+/// enters a matrix (diagonal += alpha * coefficient, right-hand side -= beta * coefficient).
+#include <array>
+
+#include "core/field.hpp"
+#include "core/grid.hpp"
+
+namespace quicksand {
+
+enum class SideKind { axis, symmetry, free_slip, no_slip, open };
+
+/// One side of the domain as the user names it.
+struct Side {
+  SideKind kind = SideKind::free_slip;
+  double pressure = 0;  ///< outside pressure of an open side
+};
+
+/// Low (0) and high (1) side along every axis.
+template <int Dim>
+struct Sides {
+  std::array<std::array<Side, 2>, static_cast<std::size_t>(Dim)> side;
+  const Side& at(int d, int s) const { return side[static_cast<std::size_t>(d)][static_cast<std::size_t>(s)]; }
+  Side& at(int d, int s) { return side[static_cast<std::size_t>(d)][static_cast<std::size_t>(s)]; }
+};
+
+/// ghost = alpha * mirror + beta
+struct GhostRule {
+  double alpha;
+  double beta;
+};
+
+/// Whether liquid and momentum can leave through the side.
+constexpr bool is_open(const Side& side) { return side.kind == SideKind::open; }
+/// Volume fractions: mirrored at closed sides, gas outside open ones.
+GhostRule fraction_rule(const Side& side);
+/// Velocity in convection and redistribution, where no wall drags: normal component odd and tangential even at closed
+/// sides, both continued at open ones.
+GhostRule inviscid_velocity_rule(const Side& side, bool normal);
+/// Velocity in the viscous stress: as above, but tangential zero on a no-slip wall and on an open side (report, tube flow).
+GhostRule viscous_velocity_rule(const Side& side, bool normal);
+/// Potentials whose gradient moves volume (H, MAC pressure increment): flux zero at closed sides, zero on open ones.
+GhostRule potential_rule(const Side& side);
+
+/// Fills the ghost cells beyond the domain's boundary, corners included; ghost cells at seams between grids are left alone.
+/// \param rule  callable (axis, side 0|1) -> GhostRule
+template <int Dim, class Rule>
+void fill_ghosts(const Grid<Dim>& grid, CellField& field, Rule&& rule) {
+  Box<Dim> done = grid.cells();
+  for (int d = 0; d < Dim; ++d) {
+    for (int s = 0; s < 2; ++s) {
+      if (!grid.at_boundary(d, s)) continue;
+      const GhostRule r = rule(d, s);
+      Box<Dim> layer = done;
+      layer.lo[d] = s == 0 ? -ghosts : grid.owned_cells()[d];
+      layer.hi[d] = layer.lo[d] + ghosts;
+      const Step along = grid.step(d);
+      const int mirror_sum = s == 0 ? -1 : 2 * grid.owned_cells()[d] - 1;
+      const int last = grid.owned_cells()[d] - 1;
+      for_each_indexed<Cell>(grid.layout(), layer, [&](Cell c, const Index<Dim>& i) {
+        // On an axis of one cell the second ghost mirrors the only cell too.
+        const int mirror = std::clamp(mirror_sum - i[d], 0, last);
+        field[c] = r.alpha * field[c + (mirror - i[d]) * along] + r.beta;
+      });
+    }
+    // The next axes fill the corners from these ghost cells.
+    done.lo[d] -= ghosts;
+    done.hi[d] += ghosts;
+  }
+}
+
+/// Ghost cells of volume fractions.
+template <int Dim>
+void fill_fraction_ghosts(const Grid<Dim>& grid, const Sides<Dim>& sides, CellField& phi) {
+  fill_ghosts(grid, phi, [&](int d, int s) { return fraction_rule(sides.at(d, s)); });
+}
+
+/// Ghost cells of a velocity for convection and redistribution.
+template <int Dim>
+void fill_velocity_ghosts(const Grid<Dim>& grid, const Sides<Dim>& sides, CellVectors<Dim>& u) {
+  for (int e = 0; e < Dim; ++e) {
+    fill_ghosts(grid, u[e], [&](int d, int s) { return inviscid_velocity_rule(sides.at(d, s), d == e); });
+  }
+}
+
+}  // namespace quicksand

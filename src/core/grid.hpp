@@ -1,0 +1,97 @@
+#pragma once
+/// \file
+/// Rectilinear grids: planar 2-D (x, z), axisymmetric (r, z) and 3-D (x, y, z), with stored metrics.
+#include <array>
+#include <vector>
+
+#include "core/field.hpp"
+#include "core/layout.hpp"
+#include "core/loop.hpp"
+
+namespace quicksand {
+
+enum class Geometry { planar, axisymmetric, cartesian };
+
+/// Integrals of the linear shape functions N0, N1 over one interval of an axis with the axis' weight w (1, or r on the
+/// radial axis): the building blocks of the bilinear and trilinear elements of the nodal pressure.
+struct LineElement {
+  double stiffness;    ///< integral of w N1'^2 = -integral of w N0' N1'
+  double mass[2][2];   ///< integral of w Na Nb
+  double fraction[2];  ///< integral of w Na over integral of w
+};
+
+/// Grid of `Dim` rectilinear axes. The last axis is vertical. Lengths in the unit of the case.
+///
+/// A grid owns a box of the cells of the global axes. Fields hold the owned cells and `ghosts` layers around them; ghost
+/// cells beyond the domain mirror the widths of the cells inside. For axisymmetric grids axis 0 is the radius and all
+/// volumes and areas are per radian, so that r enters here and in the hoop strain only.
+template <int Dim>
+class Grid {
+ public:
+  /// \param faces  increasing face coordinates of the global axes, at least two each
+  /// \param owned  owned cells as a box of global cell numbers
+  /// \throws InputError where an axis does not increase or an axisymmetric grid begins at r < 0
+  Grid(std::array<std::vector<double>, Dim> faces, Geometry geometry, const Box<Dim>& owned);
+  /// Grid that owns all cells of its axes.
+  Grid(std::array<std::vector<double>, Dim> faces, Geometry geometry);
+
+  Geometry geometry() const { return geometry_; }
+  bool axisymmetric() const { return geometry_ == Geometry::axisymmetric; }
+  const Layout<Dim>& layout() const { return layout_; }
+  Step step(int d) const { return layout_.step(d); }
+  const Index<Dim>& owned_cells() const { return layout_.cells(); }
+  /// Cells of the whole domain, of which this grid owns owned_global().
+  const Index<Dim>& global_cells() const { return global_cells_; }
+  const Box<Dim>& owned_global() const { return owned_global_; }
+  /// Whether the owned box ends at the domain's low (side 0) or high (side 1) boundary along d.
+  bool at_boundary(int d, int side) const {
+    return side == 0 ? owned_global_.lo[d] == 0 : owned_global_.hi[d] == global_cells_[d];
+  }
+
+  Box<Dim> cells() const { return {Index<Dim>{}, layout_.cells()}; }                  ///< owned cells
+  Box<Dim> faces(int d) const { return extend_high(cells(), d); }                     ///< faces of owned cells along d
+  Box<Dim> nodes() const;                                                             ///< nodes of owned cells
+  /// Cell multi-index (owned cells start at 0) to flat index.
+  Cell cell(const Index<Dim>& i) const { return {layout_.flat(i)}; }
+
+  double volume(Cell c) const { return volume_[c]; }
+  double area(int d, Face f) const { return area_[d][f]; }
+  double width(int d, Cell c) const { return width_[d][c]; }
+  const CellField& volumes() const { return volume_; }
+
+  /// 1-D metrics along axis d for the owned index i and its ghosts, -ghosts <= i < n + ghosts (faces: <= n + ghosts).
+  double face_position(int d, int i) const { return axes_[at(d)].face[at(i + ghosts)]; }
+  double centre_position(int d, int i) const { return axes_[at(d)].centre[at(i + ghosts)]; }
+  double width_1d(int d, int i) const { return axes_[at(d)].width[at(i + ghosts)]; }
+  const LineElement& line_element(int d, int i) const { return axes_[at(d)].element[at(i + ghosts)]; }
+  Vec<Dim> centre(const Index<Dim>& i) const;
+
+  /// Face coordinates of the whole domain along d.
+  const std::vector<double>& global_faces(int d) const { return global_faces_[at(d)]; }
+  double smallest_width() const { return smallest_width_; }
+
+ private:
+  struct Axis {
+    std::vector<double> face, centre, width;
+    std::vector<LineElement> element;
+  };
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  void store_axis(int d);
+  void store_metrics();
+
+  std::array<std::vector<double>, Dim> global_faces_;
+  Geometry geometry_;
+  Index<Dim> global_cells_;
+  Box<Dim> owned_global_;
+  Layout<Dim> layout_;
+  std::array<Axis, Dim> axes_;
+  CellField volume_;
+  FaceScalars<Dim> area_;
+  CellVectors<Dim> width_;
+  double smallest_width_ = 0;
+};
+
+extern template class Grid<2>;
+extern template class Grid<3>;
+
+}  // namespace quicksand

@@ -1,0 +1,172 @@
+#include "core/units.hpp"
+
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "core/errors.hpp"
+
+namespace quicksand {
+
+namespace {
+
+struct Symbol {
+  std::string_view name;
+  Unit unit;
+};
+
+constexpr double inch = 0.0254;
+constexpr double pound = 0.45359237;
+constexpr double standard_gravity = 9.80665;
+
+constexpr Symbol symbols[] = {
+    {"m", {dimension::length, 1}},
+    {"km", {dimension::length, 1e3}},
+    {"cm", {dimension::length, 1e-2}},
+    {"mm", {dimension::length, 1e-3}},
+    {"um", {dimension::length, 1e-6}},
+    {"in", {dimension::length, inch}},
+    {"ft", {dimension::length, 12 * inch}},
+    {"s", {dimension::time, 1}},
+    {"ms", {dimension::time, 1e-3}},
+    {"us", {dimension::time, 1e-6}},
+    {"min", {dimension::time, 60}},
+    {"kg", {dimension::mass, 1}},
+    {"g", {dimension::mass, 1e-3}},
+    {"lb", {dimension::mass, pound}},
+    {"N", {{1, 1, -2}, 1}},
+    {"Pa", {dimension::pressure, 1}},
+    {"hPa", {dimension::pressure, 1e2}},
+    {"kPa", {dimension::pressure, 1e3}},
+    {"MPa", {dimension::pressure, 1e6}},
+    {"bar", {dimension::pressure, 1e5}},
+    {"atm", {dimension::pressure, 101325}},
+    {"psi", {dimension::pressure, pound * standard_gravity / (inch * inch)}},
+    {"ftH2O", {dimension::pressure, 12 * inch * 1000 * standard_gravity}},  // conventional water, 1000 kg/m^3
+    {"P", {dimension::viscosity, 0.1}},
+    {"cP", {dimension::viscosity, 1e-3}},
+};
+
+struct Name {
+  Dimension dimension;
+  const char* text;
+};
+
+constexpr Name names[] = {
+    {dimension::none, "a plain number"},
+    {dimension::length, "a length (such as m)"},
+    {dimension::wavenumber, "a wavenumber (such as 1/m)"},
+    {dimension::time, "a time (such as s)"},
+    {dimension::mass, "a mass (such as kg)"},
+    {dimension::velocity, "a velocity (such as m/s)"},
+    {dimension::acceleration, "an acceleration (such as m/s^2)"},
+    {dimension::density, "a density (such as kg/m^3)"},
+    {dimension::pressure, "a pressure or stress (such as Pa)"},
+    {dimension::viscosity, "a viscosity (such as Pa s)"},
+};
+
+Unit find_symbol(std::string_view name) {
+  std::string known;
+  for (const Symbol& symbol : symbols) {
+    if (symbol.name == name) return symbol.unit;
+    known += (known.empty() ? "" : ", ") + std::string(symbol.name);
+  }
+  throw InputError("unknown unit '" + std::string(name) + "'; known are " + known);
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
+  return text;
+}
+
+/// Takes `^n` from the front of the text; 1 if there is none.
+int take_exponent(std::string_view& text) {
+  if (text.empty() || text.front() != '^') return 1;
+  int exponent = 0;
+  const auto result = std::from_chars(text.data() + 1, text.data() + text.size(), exponent);
+  if (result.ec != std::errc{} || std::abs(exponent) > 9) throw InputError("'^' must be followed by a small whole number");
+  text.remove_prefix(static_cast<std::size_t>(result.ptr - text.data()));
+  return exponent;
+}
+
+}  // namespace
+
+std::string to_string(const Dimension& dimension) {
+  for (const Name& name : names) {
+    if (name.dimension == dimension) return name.text;
+  }
+  return "mass^" + std::to_string(dimension.mass) + " length^" + std::to_string(dimension.length) + " time^" +
+         std::to_string(dimension.time);
+}
+
+Unit parse_unit(std::string_view text) {
+  Unit unit;
+  text = trimmed(text);
+  int sign = 1;
+  bool needs_symbol = true;
+  while (!text.empty()) {
+    const char ch = text.front();
+    if (std::isspace(static_cast<unsigned char>(ch))) {
+      text.remove_prefix(1);
+    } else if (ch == '*' || ch == '/') {
+      if (needs_symbol) throw InputError("'" + std::string(1, ch) + "' must stand between two units");
+      sign = ch == '/' ? -1 : 1;
+      needs_symbol = true;
+      text.remove_prefix(1);
+    } else {
+      std::size_t length = 0;
+      while (length < text.size() && std::isalnum(static_cast<unsigned char>(text[length]))) ++length;
+      if (length == 0) throw InputError("unit has an unexpected '" + std::string(1, ch) + "'");
+      const std::string_view name = text.substr(0, length);
+      text.remove_prefix(length);
+      const Unit symbol = name == "1" ? Unit{} : find_symbol(name);
+      const int power = sign * take_exponent(text);
+      unit.dimension.mass += power * symbol.dimension.mass;
+      unit.dimension.length += power * symbol.dimension.length;
+      unit.dimension.time += power * symbol.dimension.time;
+      unit.factor *= std::pow(symbol.factor, power);
+      sign = 1;
+      needs_symbol = false;
+    }
+  }
+  if (needs_symbol) throw InputError("unit is incomplete");
+  return unit;
+}
+
+double parse_quantity(std::string_view text, const Dimension& expected, UnitSystem system) {
+  const std::string shown = "'" + std::string(text) + "'";
+  const std::string wanted = expected == dimension::none || system == UnitSystem::none
+                                 ? "a plain number"
+                                 : to_string(expected) + " or a number in SI";
+  text = trimmed(text);
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  double number = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (result.ec == std::errc::invalid_argument) {
+    const bool special = text == ".inf" || text == "-.inf" || text == ".nan" || text == ".NaN" || text == ".Inf";
+    throw InputError(special ? "must be finite, not " + shown : "must be " + wanted + ", not " + shown);
+  }
+  if (result.ec == std::errc::result_out_of_range || !std::isfinite(number)) {
+    throw InputError("must be finite and within the range of doubles, not " + shown);
+  }
+  const std::string_view unit_text = trimmed(text.substr(static_cast<std::size_t>(result.ptr - text.data())));
+  if (unit_text.empty()) return number;
+  if (!std::isalpha(static_cast<unsigned char>(unit_text.front())) && unit_text.front() != '/' &&
+      unit_text.front() != '1') {
+    throw InputError("must be " + wanted + ", not " + shown);
+  }
+  if (system == UnitSystem::none) throw InputError("takes a plain number where units are none, not " + shown);
+  // `3 /m` means 3 per metre.
+  const Unit unit = parse_unit(unit_text.front() == '/' ? "1" + std::string(unit_text) : std::string(unit_text));
+  if (!(unit.dimension == expected)) {
+    throw InputError("must be " + wanted + ", but the unit '" + std::string(unit_text) + "' is " +
+                     to_string(unit.dimension));
+  }
+  const double value = number * unit.factor;
+  if (!std::isfinite(value)) throw InputError("must be finite, not " + shown);
+  return value;
+}
+
+}  // namespace quicksand

@@ -1,0 +1,290 @@
+#include "physics/convection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quicksand {
+
+namespace {
+
+/// Cells with less liquid move ballistically: no slopes, no acceleration in the predictor.
+constexpr double ballistic_fraction = 0.5;
+
+double limit_mc(double low, double centre, double high) {
+  if (low * high <= 0) return 0;
+  const double magnitude = std::min({std::abs(low), std::abs(centre), std::abs(high)});
+  return low > 0 ? magnitude : -magnitude;
+}
+
+/// Limited derivative of q along d: monotonized central differences on widths that may vary.
+template <int Dim>
+double slope(const Grid<Dim>& grid, const CellField& q, Cell c, int d) {
+  const Step e = grid.step(d);
+  const double w = grid.width(d, c);
+  const double w_low = grid.width(d, c - e);
+  const double w_high = grid.width(d, c + e);
+  const double centre = (q[c + e] - q[c - e]) / (w + 0.5 * (w_low + w_high));
+  return limit_mc(2 * (q[c] - q[c - e]) / w, centre, 2 * (q[c + e] - q[c]) / w);
+}
+
+/// The slopes that the predictor may use in a cell.
+template <int Dim>
+class Reconstruction {
+ public:
+  Reconstruction(const Grid<Dim>& grid, const CellField& total) : grid_(grid), total_(total) {}
+
+  bool ballistic(Cell c) const { return total_[c] < ballistic_fraction; }
+  double fraction_slope(const CellField& q, Cell c, int d) const { return ballistic(c) ? 0 : slope(grid_, q, c, d); }
+  /// The velocity of an empty neighbour means nothing.
+  double velocity_slope(const CellField& q, Cell c, int d) const {
+    const Step e = grid_.step(d);
+    const bool apart = total_[c - e] < empty_fraction || total_[c + e] < empty_fraction;
+    return ballistic(c) || apart ? 0 : slope(grid_, q, c, d);
+  }
+  /// Half-time velocity component on the face of c along d; side +1 high, -1 low.
+  double face_velocity(const CellField& u_half, const CellField& u, Cell c, int d, int side) const {
+    return u_half[c] + 0.5 * side * grid_.width(d, c) * velocity_slope(u, c, d);
+  }
+  double face_fraction(const CellField& phi_half, const CellField& phi, Cell c, int d, int side) const {
+    return std::clamp(phi_half[c] + 0.5 * side * grid_.width(d, c) * fraction_slope(phi, c, d), 0.0, 1.0);
+  }
+
+ private:
+  const Grid<Dim>& grid_;
+  const CellField& total_;
+};
+
+/// Face velocity from the two sides' states: an empty side has no say, liquid against liquid goes upwind of the
+/// sqrt(rho)-weighted mean, and states that part leave the face at rest.
+double upwind(double u_low, double u_high, double rho_low, double rho_high, bool low_empty, bool high_empty) {
+  if (low_empty && high_empty) return 0;
+  if (low_empty) return u_high;
+  if (high_empty) return u_low;
+  if (u_low < 0 && u_high > 0) return 0;
+  const double a = std::sqrt(std::max(rho_low, 0.0));
+  const double b = std::sqrt(std::max(rho_high, 0.0));
+  return a * u_low + b * u_high > 0 ? u_low : u_high;
+}
+
+/// -dt/2 (u . grad) q in the cell.
+template <int Dim, class Slope>
+double advect_half(const CellVectors<Dim>& u, Cell c, double dt, Slope&& slope_along) {
+  double change = 0;
+  for (int d = 0; d < Dim; ++d) change -= 0.5 * dt * u[d][c] * slope_along(d);
+  return change;
+}
+
+/// Half-time fractions of the species, for their shares in what crosses a face.
+template <int Dim>
+void predict_fractions(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, double dt,
+                       ConvectionWork<Dim>& work) {
+  const Reconstruction<Dim> reconstruction(domain.grid, in.total);
+  for (std::size_t i = 0; i < in.phi.size(); ++i) {
+    const CellField& phi = in.phi[i];
+    CellField& phi_half = work.phi_half[i];
+    for_each<Cell>(domain.layout(), grow(domain.grid.cells(), 1), [&](Cell c) {
+      phi_half[c] = phi[c] + advect_half(in.u, c, dt, [&](int d) { return reconstruction.fraction_slope(phi, c, d); });
+    });
+  }
+}
+
+/// Volume fluxes per species and side: the filled part of the swept slab, shared among the species as their limited face
+/// fractions are.
+template <int Dim>
+void store_volume_fluxes(const Domain<Dim>& domain, const ConvectionInput<Dim>& in,
+                         const FaceVelocities<Dim>& velocities, double dt, ConvectionWork<Dim>& work) {
+  const Reconstruction<Dim> reconstruction(domain.grid, in.total);
+  const std::size_t m = in.phi.size();
+  const auto sum_scale = [&](Cell c, int d, int side, double velocity) {
+    double parts = 0;
+    for (std::size_t i = 0; i < m; ++i) {
+      parts += reconstruction.face_fraction(work.phi_half[i], in.phi[i], c, d, side);
+    }
+    const double whole = swept_fraction(domain.grid, work.surface, in.total, in.u, c, d, side, velocity, dt);
+    return parts > 0 ? whole / parts : 0.0;
+  };
+  for (int d = 0; d < Dim; ++d) {
+    for_each<Face>(domain.layout(), domain.grid.faces(d), [&](Face f) {
+      const Cell high = high_cell(f);
+      const Cell low = high - domain.grid.step(d);
+      const double up = velocities.from_low[d][f];
+      const double down = velocities.from_high[d][f];
+      const double area = domain.aperture[d][f];
+      const double up_scaled = up > 0 ? area * up * sum_scale(low, d, 1, up) : 0.0;
+      const double down_scaled = down < 0 ? area * down * sum_scale(high, d, -1, down) : 0.0;
+      for (std::size_t i = 0; i < m; ++i) {
+        work.flux_low[i][d][f] =
+            up > 0 ? up_scaled * reconstruction.face_fraction(work.phi_half[i], in.phi[i], low, d, 1) : 0.0;
+        work.flux_high[i][d][f] =
+            down < 0 ? down_scaled * reconstruction.face_fraction(work.phi_half[i], in.phi[i], high, d, -1) : 0.0;
+      }
+    });
+  }
+}
+
+/// Scales each cell's outflow of a species to at most what the cell holds.
+template <int Dim>
+void limit_outflow(const Domain<Dim>& domain, const CellField& phi, double dt, CellField& scale,
+                   FaceScalars<Dim>& flux_low, FaceScalars<Dim>& flux_high) {
+  const Grid<Dim>& grid = domain.grid;
+  scale.fill(1);
+  for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
+    double out = 0;
+    for (int d = 0; d < Dim; ++d) out += flux_low[d][low_face(c + grid.step(d))] - flux_high[d][low_face(c)];
+    const double held = std::max(phi[c], 0.0) * grid.volume(c);
+    scale[c] = out * dt > held ? held / (out * dt) : 1.0;
+  });
+  for (int d = 0; d < Dim; ++d) {
+    for_each<Face>(domain.layout(), grid.faces(d), [&](Face f) {
+      const Cell high = high_cell(f);
+      flux_low[d][f] *= scale[high - grid.step(d)];
+      flux_high[d][f] *= scale[high];
+    });
+  }
+}
+
+/// Volume that crosses open sides outwards during the step.
+template <int Dim>
+double outflow_through_sides(const Domain<Dim>& domain, const FaceScalars<Dim>& flux_low,
+                             const FaceScalars<Dim>& flux_high, double dt) {
+  double escaped = 0;
+  for (int d = 0; d < Dim; ++d) {
+    for (int s = 0; s < 2; ++s) {
+      const Box<Dim> layer = intersect(domain.side_faces(d, s), domain.grid.faces(d));
+      const double sign = s == 0 ? -1 : 1;
+      escaped += sum<Face>(domain.layout(), layer,
+                           [&](Face f) { return sign * dt * (flux_low[d][f] + flux_high[d][f]); });
+    }
+  }
+  return escaped;
+}
+
+}  // namespace
+
+template <int Dim>
+ConvectionWork<Dim>::ConvectionWork(const Layout<Dim>& layout, std::size_t n_species)
+    : u_half(layout),
+      phi_half(n_species, CellField(layout)),
+      surface(layout),
+      outflow(layout),
+      flux_low(n_species, FaceScalars<Dim>(layout)),
+      flux_high(n_species, FaceScalars<Dim>(layout)) {}
+
+template <int Dim>
+void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, double dt, ConvectionWork<Dim>& work,
+                        FaceVelocities<Dim>& velocities) {
+  const Grid<Dim>& grid = domain.grid;
+  const Reconstruction<Dim> reconstruction(grid, in.total);
+  for (int e = 0; e < Dim; ++e) {
+    for_each<Cell>(domain.layout(), grow(grid.cells(), 1), [&](Cell c) {
+      const double a = reconstruction.ballistic(c) ? 0 : in.acceleration[e][c];
+      work.u_half[e][c] = in.u[e][c] + 0.5 * dt * a + advect_half(in.u, c, dt, [&](int d) {
+                            return reconstruction.velocity_slope(in.u[e], c, d);
+                          });
+    });
+  }
+  for (int d = 0; d < Dim; ++d) {
+    for_each<Face>(domain.layout(), grid.faces(d), [&](Face f) {
+      const Cell high = high_cell(f);
+      const Cell low = high - grid.step(d);
+      velocities.mac[d][f] = domain.aperture[d][f] > 0
+                                 ? upwind(reconstruction.face_velocity(work.u_half[d], in.u[d], low, d, 1),
+                                          reconstruction.face_velocity(work.u_half[d], in.u[d], high, d, -1),
+                                          in.rho[low], in.rho[high], in.total[low] < empty_fraction,
+                                          in.total[high] < empty_fraction)
+                                 : 0.0;
+    });
+  }
+}
+
+template <int Dim>
+void split_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, const ConvectionWork<Dim>& work,
+                      FaceVelocities<Dim>& velocities) {
+  const Grid<Dim>& grid = domain.grid;
+  const Reconstruction<Dim> reconstruction(grid, in.total);
+  for (int d = 0; d < Dim; ++d) {
+    for_each<Face>(domain.layout(), grid.faces(d), [&](Face f) {
+      const Cell high = high_cell(f);
+      const Cell low = high - grid.step(d);
+      const double mac = velocities.mac[d][f];
+      double up = mac;
+      double down = mac;
+      // A gas-side cell gives with its own velocity; into liquid at least as fast as the liquid recedes.
+      if (!in.liquid[low]) {
+        const double own = reconstruction.face_velocity(work.u_half[d], in.u[d], low, d, 1);
+        up = in.liquid[high] ? std::max(mac, own) : own;
+      }
+      if (!in.liquid[high]) {
+        const double own = reconstruction.face_velocity(work.u_half[d], in.u[d], high, d, -1);
+        down = in.liquid[low] ? std::min(mac, own) : own;
+      }
+      velocities.from_low[d][f] = std::max(up, 0.0);
+      velocities.from_high[d][f] = std::min(down, 0.0);
+    });
+  }
+}
+
+template <int Dim>
+void convect(const Domain<Dim>& domain, const std::vector<Species>& species, const ConvectionInput<Dim>& in, double dt,
+             const FaceVelocities<Dim>& velocities, ConvectionWork<Dim>& work, Fractions& phi_tilde,
+             CellVectors<Dim>& momentum_tilde, std::vector<double>& escaped) {
+  const Grid<Dim>& grid = domain.grid;
+  predict_fractions(domain, in, dt, work);
+  reconstruct_surface(grid, in.total, work.surface);
+  store_volume_fluxes(domain, in, velocities, dt, work);
+  for (std::size_t i = 0; i < species.size(); ++i) {
+    FaceScalars<Dim>& low = work.flux_low[i];
+    FaceScalars<Dim>& high = work.flux_high[i];
+    limit_outflow(domain, in.phi[i], dt, work.outflow, low, high);
+    escaped[i] += outflow_through_sides(domain, low, high, dt);
+    for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
+      double gain = 0;
+      for (int d = 0; d < Dim; ++d) {
+        const Face below = low_face(c);
+        const Face above = low_face(c + grid.step(d));
+        gain += low[d][below] + high[d][below] - low[d][above] - high[d][above];
+      }
+      phi_tilde[i][c] = in.phi[i][c] + dt * gain / grid.volume(c);
+    });
+  }
+
+  // Momentum goes with the mass that crosses a face, at the velocity of the side that gives it.
+  const Reconstruction<Dim> reconstruction(grid, in.total);
+  const auto mass_flux = [&](const std::vector<FaceScalars<Dim>>& flux, int d, Face f) {
+    double mass = 0;
+    for (std::size_t i = 0; i < species.size(); ++i) mass += species[i].density * flux[i][d][f];
+    return mass;
+  };
+  for (int e = 0; e < Dim; ++e) {
+    const CellField& u = in.u[e];
+    const CellField& u_half = work.u_half[e];
+    for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) { momentum_tilde[e][c] = in.rho[c] * u[c]; });
+    for (int d = 0; d < Dim; ++d) {
+      const auto momentum_flux = [&](Face f) {
+        const Cell high = high_cell(f);
+        const Cell low = high - grid.step(d);
+        return mass_flux(work.flux_low, d, f) * reconstruction.face_velocity(u_half, u, low, d, 1) +
+               mass_flux(work.flux_high, d, f) * reconstruction.face_velocity(u_half, u, high, d, -1);
+      };
+      for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
+        momentum_tilde[e][c] +=
+            dt * (momentum_flux(low_face(c)) - momentum_flux(low_face(c + grid.step(d)))) / grid.volume(c);
+      });
+    }
+  }
+}
+
+#define QUICKSAND_INSTANTIATE(Dim)                                                                                     \
+  template struct ConvectionWork<Dim>;                                                                                 \
+  template void predict_velocities(const Domain<Dim>&, const ConvectionInput<Dim>&, double, ConvectionWork<Dim>&,      \
+                                   FaceVelocities<Dim>&);                                                              \
+  template void split_velocities(const Domain<Dim>&, const ConvectionInput<Dim>&, const ConvectionWork<Dim>&,          \
+                                 FaceVelocities<Dim>&);                                                                \
+  template void convect(const Domain<Dim>&, const std::vector<Species>&, const ConvectionInput<Dim>&, double,          \
+                        const FaceVelocities<Dim>&, ConvectionWork<Dim>&, Fractions&, CellVectors<Dim>&,               \
+                        std::vector<double>&);
+QUICKSAND_INSTANTIATE(2)
+QUICKSAND_INSTANTIATE(3)
+#undef QUICKSAND_INSTANTIATE
+
+}  // namespace quicksand

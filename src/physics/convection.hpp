@@ -1,0 +1,67 @@
+#pragma once
+/// \file
+/// Convection (44): second-order Godunov predictor and conservative update of fractions and momentum.
+///
+/// Half-time states follow from limited slopes (monotonized central differences, MUSCL-Hancock) and the lagged
+/// acceleration. At the border of the liquid region D fluxes are two-sided: what the gas-side cell throws at the liquid
+/// enters with its own velocity, however the liquid moves, so that a collision shows as excess density for the
+/// redistribution to remove.
+#include <vector>
+
+#include "core/domain.hpp"
+#include "physics/mixture.hpp"
+#include "physics/surface.hpp"
+
+namespace quicksand {
+
+/// What the predictor starts from; all fields with both ghost layers filled.
+template <int Dim>
+struct ConvectionInput {
+  const Fractions& phi;
+  const CellField& total;                  ///< sum of phi
+  const CellField& rho;
+  const CellVectors<Dim>& u;
+  const CellVectors<Dim>& acceleration;    ///< (-grad P + div T) / rho - g of the last step, one ghost layer
+  const CellMask& liquid;                  ///< D
+};
+
+/// Velocities at the faces: `mac` for the projection, and what crosses a face from either side.
+template <int Dim>
+struct FaceVelocities {
+  FaceScalars<Dim> mac;       ///< normal velocity, divergence-free in D after the MAC projection
+  FaceScalars<Dim> from_low;  ///< velocity >= 0 at which the cell below the face gives its content upwards
+  FaceScalars<Dim> from_high; ///< velocity <= 0 at which the cell above the face gives its content downwards
+
+  explicit FaceVelocities(const Layout<Dim>& layout) : mac(layout), from_low(layout), from_high(layout) {}
+};
+
+/// Work arrays of the convection phase.
+template <int Dim>
+struct ConvectionWork {
+  CellVectors<Dim> u_half;
+  Fractions phi_half;
+  Surface<Dim> surface;
+  CellField outflow;
+  std::vector<FaceScalars<Dim>> flux_low, flux_high;  ///< per species: volume per time given by the low and high cell
+
+  ConvectionWork(const Layout<Dim>& layout, std::size_t n_species);
+};
+
+/// Normal face velocities at half time from both sides, upwinded into velocities.mac; also the half-time cell velocities.
+template <int Dim>
+void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, double dt, ConvectionWork<Dim>& work,
+                        FaceVelocities<Dim>& velocities);
+
+/// Splits the projected face velocities into what each side gives (two-sided at faces that are not inside D).
+template <int Dim>
+void split_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, const ConvectionWork<Dim>& work,
+                      FaceVelocities<Dim>& velocities);
+
+/// phi~ (44b) and rho~ u~ (44a) from the split velocities. Outflow is scaled so that phi~ >= 0.
+/// Volume that leaves through open sides is added to `escaped`, per species.
+template <int Dim>
+void convect(const Domain<Dim>& domain, const std::vector<Species>& species, const ConvectionInput<Dim>& in, double dt,
+             const FaceVelocities<Dim>& velocities, ConvectionWork<Dim>& work, Fractions& phi_tilde,
+             CellVectors<Dim>& momentum_tilde, std::vector<double>& escaped);
+
+}  // namespace quicksand

@@ -1,0 +1,279 @@
+#include "physics/diffusion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "physics/viscous_functional.hpp"
+#include "solvers/anderson.hpp"
+#include "solvers/multigrid.hpp"
+
+namespace quicksand {
+
+namespace {
+
+/// Linear solves inside the nonlinear iteration.
+constexpr int max_linear_iterations = 400;
+/// Newton's method gives up, in favour of Anderson's, when a line search has halved the step this often.
+constexpr int max_halvings = 12;
+constexpr int anderson_depth = 5;
+
+template <int Dim>
+int flat_corner_cells(const NodeMask& active, const Layout<Dim>& layout, Cell c) {
+  int touched = 0;
+  for (int k = 0; k < corner_count<Dim>; ++k) {
+    Node n = low_node(c);
+    for (int d = 0; d < Dim; ++d) {
+      if ((k >> d) & 1) n = n + layout.step(d);
+    }
+    touched += active[n];
+  }
+  return touched;
+}
+
+/// Masses of the cells that active elements touch, and the box around them.
+template <int Dim>
+void mark_participants(const Domain<Dim>& domain, const CellField& rho, DiffusionWork<Dim>& work) {
+  const Grid<Dim>& grid = domain.grid;
+  for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
+    work.mass[c] = flat_corner_cells(work.active, domain.layout(), c) > 0 ? rho[c] * grid.volume(c) : 0.0;
+  });
+  work.matrix.set_box(bounding_box<Cell>(domain.layout(), grid.cells(), [&](Cell c) { return work.mass[c] > 0; }));
+}
+
+/// sqrt(sum r^2 / m): the gradient norm in which all cells count alike.
+template <int Dim>
+double gradient_norm(const Domain<Dim>& domain, const DiffusionWork<Dim>& work, const CellVectors<Dim>& gradient) {
+  double square = 0;
+  for (int d = 0; d < Dim; ++d) {
+    square += sum<Cell>(domain.layout(), work.matrix.box(), [&](Cell c) {
+      return work.mass[c] > 0 ? gradient[d][c] * gradient[d][c] / work.mass[c] : 0.0;
+    });
+  }
+  return std::sqrt(square);
+}
+
+/// Solves matrix * x = b by CG with one multigrid cycle per component as preconditioner.
+template <int Dim>
+SolveReport solve_velocity(const Domain<Dim>& domain, const VelocityMatrix<Dim>& matrix, const CellVectors<Dim>& b,
+                           CellVectors<Dim>& x, double relative_tolerance) {
+  std::vector<Multigrid<Dim, Cell>> cycles;
+  cycles.reserve(static_cast<std::size_t>(Dim));
+  for (int d = 0; d < Dim; ++d) cycles.emplace_back(matrix.component(d), MultigridKind::pfmg);
+  const auto precondition = [&](const CellVectors<Dim>& r, CellVectors<Dim>& z) {
+    for (int d = 0; d < Dim; ++d) cycles[static_cast<std::size_t>(d)].cycle(r[d], z[d]);
+  };
+  const auto apply = [&](const CellVectors<Dim>& v, CellVectors<Dim>& y) { matrix.apply(v, y); };
+  return conjugate_gradients<Cell>(domain.layout(), matrix.box(), apply, precondition, b, x,
+                                   {.relative = relative_tolerance, .max_iterations = max_linear_iterations});
+}
+
+/// What the nonlinear iterations share.
+template <int Dim>
+struct Problem {
+  const Domain<Dim>& domain;
+  const CellVectors<Dim>& u_hat;
+  double dt;
+  DiffusionWork<Dim>& work;
+  double target;  ///< gradient norm to reach
+};
+
+template <int Dim>
+void add_scaled(const Problem<Dim>& p, const CellVectors<Dim>& x, double factor, const CellVectors<Dim>& y,
+                CellVectors<Dim>& result) {
+  for (int d = 0; d < Dim; ++d) {
+    for_each<Cell>(p.domain.layout(), p.work.matrix.box(),
+                   [&](Cell c) { result[d][c] = x[d][c] + factor * y[d][c]; });
+  }
+}
+
+/// Newton's method with backtracking on the functional. Returns whether the target was reached; u is never worse than before.
+template <int Dim>
+bool iterate_newton(const Problem<Dim>& p, int max_iterations, CellVectors<Dim>& u, DiffusionReport& report) {
+  DiffusionWork<Dim>& work = p.work;
+  double value = evaluate_functional(p.domain, p.u_hat, u, p.dt, work, work.gradient);
+  double norm = gradient_norm(p.domain, work, work.gradient);
+  double last_norm = norm;
+  for (int k = 0; norm > p.target; ++k) {
+    if (k == max_iterations) return false;
+    assemble_matrix(p.domain, u, p.dt, Linearisation::tangent, work);
+    for (int d = 0; d < Dim; ++d) work.update[d].fill(0);
+    // Inexact Newton: as accurate as the quadratic convergence seen so far deserves.
+    const double forcing = k == 0 ? 1e-2 : std::clamp(0.5 * (norm / last_norm) * (norm / last_norm), 1e-4, 1e-2);
+    const SolveReport linear =
+        solve_velocity(p.domain, work.matrix, work.gradient, work.update, std::max(forcing, 0.1 * p.target / norm));
+    report.linear_iterations += linear.iterations;
+    ++report.iterations;
+    const double descent = dot<Cell>(p.domain.layout(), work.matrix.box(), work.gradient, work.update);
+    if (!(descent > 0)) return false;
+    // Differences of the functional below its round-off can't tell better from worse.
+    const double noise = 1e-13 * std::abs(value);
+    double length = 1;
+    double trial_value = 0;
+    int halvings = 0;
+    for (;; length *= 0.5, ++halvings) {
+      if (halvings > max_halvings) return false;
+      add_scaled(p, u, -length, work.update, work.trial);
+      trial_value = evaluate_functional(p.domain, p.u_hat, work.trial, p.dt, work, work.trial_gradient);
+      if (trial_value <= value - 1e-4 * length * descent + noise) break;
+    }
+    std::swap(u, work.trial);
+    std::swap(work.gradient, work.trial_gradient);
+    value = trial_value;
+    last_norm = norm;
+    norm = gradient_norm(p.domain, work, work.gradient);
+    if (!std::isfinite(norm)) return false;
+  }
+  return true;
+}
+
+template <int Dim>
+Eigen::VectorXd pack(const Problem<Dim>& p, const CellVectors<Dim>& u) {
+  const Box<Dim>& box = p.work.matrix.box();
+  Eigen::VectorXd x(Dim * box.size());
+  const detail::Rows<Dim> rows(p.domain.layout(), box);
+  Eigen::Index k = 0;
+  for (int d = 0; d < Dim; ++d) {
+    for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
+      for (int i = 0; i < rows.length; ++i) x[k++] = u[d][Cell{rows.start(r) + i}];
+    }
+  }
+  return x;
+}
+
+template <int Dim>
+void unpack(const Problem<Dim>& p, const Eigen::VectorXd& x, CellVectors<Dim>& u) {
+  const detail::Rows<Dim> rows(p.domain.layout(), p.work.matrix.box());
+  Eigen::Index k = 0;
+  for (int d = 0; d < Dim; ++d) {
+    for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
+      for (int i = 0; i < rows.length; ++i) u[d][Cell{rows.start(r) + i}] = x[k++];
+    }
+  }
+}
+
+/// The report's iteration (49), plain or with Anderson acceleration.
+template <int Dim>
+bool iterate_picard(const Problem<Dim>& p, int max_iterations, bool accelerate, CellVectors<Dim>& u,
+                    DiffusionReport& report) {
+  DiffusionWork<Dim>& work = p.work;
+  Anderson anderson(anderson_depth);
+  for (int k = 0;; ++k) {
+    evaluate_functional(p.domain, p.u_hat, u, p.dt, work, work.gradient);
+    const double norm = gradient_norm(p.domain, work, work.gradient);
+    if (norm <= p.target) return true;
+    if (k == max_iterations || !std::isfinite(norm)) return false;
+    assemble_matrix(p.domain, u, p.dt, Linearisation::secant, work);
+    for (int d = 0; d < Dim; ++d) work.update[d].fill(0);
+    const SolveReport linear = solve_velocity(p.domain, work.matrix, work.gradient, work.update, 1e-3);
+    report.linear_iterations += linear.iterations;
+    ++report.iterations;
+    add_scaled(p, u, -1.0, work.update, work.trial);
+    if (accelerate) {
+      unpack(p, anderson.next(pack(p, u), pack(p, work.trial)), u);
+    } else {
+      std::swap(u, work.trial);
+    }
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+DiffusionWork<Dim>::DiffusionWork(const Domain<Dim>& domain)
+    : mesh(domain),
+      active(domain.layout()),
+      rheology(domain.layout()),
+      potential(domain.layout()),
+      matrix(domain.layout()),
+      mass(domain.layout()),
+      gradient(domain.layout()),
+      trial_gradient(domain.layout()),
+      update(domain.layout()),
+      trial(domain.layout()) {}
+
+double concentration_factor(double kappa, double c) {
+  return std::abs(kappa) < 1e-12 ? c : std::expm1(kappa * c) / std::expm1(kappa);
+}
+
+template <int Dim>
+bool mix_rheology(const Domain<Dim>& domain, const std::vector<Species>& species, const Fractions& phi,
+                  const CellField& total, DiffusionWork<Dim>& work) {
+  std::vector<Rheology> pure;
+  for (const Species& s : species) pure.push_back(rheology(s.law));
+  const auto stiff = [](const Rheology& r) { return r.viscosity > 0 || r.yield_stress * r.regularization > 0; };
+  work.active.fill(0);
+  if (std::none_of(pure.begin(), pure.end(), stiff)) return false;
+
+  for_each_indexed<Node>(domain.layout(), domain.grid.nodes(), [&](Node n, const Index<Dim>& i) {
+    const DualElement<Dim> e = work.mesh.element(n, i);
+    double whole = 0;
+    bool empty = false;
+    for (const Cell c : e.corner) {
+      whole += total[c];
+      empty = empty || total[c] < empty_fraction;
+    }
+    if (empty) return;
+    Rheology mixed;
+    double alpha_sum = 0;
+    for (std::size_t s = 0; s < species.size(); ++s) {
+      double part = 0;
+      for (const Cell c : e.corner) part += phi[s][c];
+      const double composition = std::clamp(part / whole, 0.0, 1.0);
+      const Concentration& k = species[s].concentration;
+      const double yield = pure[s].yield_stress * concentration_factor(k.yield_exponent, composition);
+      mixed.viscosity += pure[s].viscosity * concentration_factor(k.viscosity_exponent, composition);
+      mixed.yield_stress += yield;
+      alpha_sum += yield * pure[s].regularization;
+    }
+    mixed.regularization = mixed.yield_stress > 0 ? alpha_sum / mixed.yield_stress : 0.0;
+    work.rheology[n] = mixed;
+    work.active[n] = stiff(mixed) ? 1 : 0;
+  });
+  return sum<Node>(domain.layout(), domain.grid.nodes(), [&](Node n) { return work.active[n] ? 1.0 : 0.0; }) > 0;
+}
+
+template <int Dim>
+DiffusionReport diffuse(const Domain<Dim>& domain, const CellField& rho, const CellVectors<Dim>& u_hat, double dt,
+                        const DiffusionOptions& options, DiffusionWork<Dim>& work, CellVectors<Dim>& u) {
+  mark_participants(domain, rho, work);
+  DiffusionReport report;
+  if (work.matrix.box().empty()) return report;
+  Problem<Dim> problem{domain, u_hat, dt, work, 0};
+  // Start from u^ or from the guess, whichever lies lower.
+  const double value_hat = evaluate_functional(domain, u_hat, u_hat, dt, work, work.gradient);
+  const double norm_hat = gradient_norm(domain, work, work.gradient);
+  problem.target = options.tolerance * norm_hat;
+  if (!(evaluate_functional(domain, u_hat, u, dt, work, work.gradient) < value_hat)) u = u_hat;
+
+  switch (options.iteration) {
+    case ViscousIteration::newton:
+      report.converged = iterate_newton(problem, options.max_iterations, u, report);
+      if (!report.converged) {
+        report.fell_back = true;
+        report.converged = iterate_picard(problem, 10 * options.max_iterations, true, u, report);
+      }
+      break;
+    case ViscousIteration::anderson:
+      report.converged = iterate_picard(problem, 10 * options.max_iterations, true, u, report);
+      break;
+    case ViscousIteration::picard:
+      report.converged = iterate_picard(problem, 10 * options.max_iterations, false, u, report);
+      break;
+  }
+  report.residual = norm_hat > 0 ? gradient_norm(domain, work, work.gradient) / norm_hat : 0.0;
+  return report;
+}
+
+#define QUICKSAND_INSTANTIATE(Dim)                                                                                    \
+  template struct DiffusionWork<Dim>;                                                                                 \
+  template bool mix_rheology(const Domain<Dim>&, const std::vector<Species>&, const Fractions&, const CellField&,     \
+                             DiffusionWork<Dim>&);                                                                    \
+  template DiffusionReport diffuse(const Domain<Dim>&, const CellField&, const CellVectors<Dim>&, double,             \
+                                   const DiffusionOptions&, DiffusionWork<Dim>&, CellVectors<Dim>&);
+QUICKSAND_INSTANTIATE(2)
+QUICKSAND_INSTANTIATE(3)
+#undef QUICKSAND_INSTANTIATE
+
+}  // namespace quicksand

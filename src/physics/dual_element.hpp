@@ -1,0 +1,186 @@
+#pragma once
+/// \file
+/// Bilinear (trilinear) elements on the dual mesh, whose corners are cell centres and, at the domain's boundary, points on the
+/// boundary. One element per node of the grid; the strain rate (30) is evaluated at the mid-points of its edges.
+///
+/// One point in the middle would leave a checkerboard of velocities without stress; mid-edge points do not, and where an
+/// element touches a wall two of them lie on it.
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/domain.hpp"
+
+namespace quicksand {
+
+/// Number of corners and mid-edge points of an element.
+template <int Dim>
+inline constexpr int corner_count = 1 << Dim;
+template <int Dim>
+inline constexpr int point_count = Dim * (1 << (Dim - 1));
+
+/// Shape functions and their derivatives at the mid-edge points of the unit element.
+template <int Dim>
+struct MidEdgeShapes {
+  double value[point_count<Dim>][corner_count<Dim>];
+  double derivative[point_count<Dim>][corner_count<Dim>][Dim];
+  double position[point_count<Dim>][Dim];
+
+  constexpr MidEdgeShapes() : value{}, derivative{}, position{} {
+    for (int q = 0; q < point_count<Dim>; ++q) {
+      const int along = q % Dim;  // the edge's direction
+      int rest = q / Dim;         // its place in the other axes, bit by bit
+      for (int d = 0; d < Dim; ++d) {
+        if (d == along) {
+          position[q][d] = 0.5;
+        } else {
+          position[q][d] = rest & 1;
+          rest >>= 1;
+        }
+      }
+      for (int k = 0; k < corner_count<Dim>; ++k) {
+        value[q][k] = product(q, k, -1);
+        for (int d = 0; d < Dim; ++d) derivative[q][k][d] = ((k >> d) & 1 ? 1 : -1) * product(q, k, d);
+      }
+    }
+  }
+
+ private:
+  constexpr double product(int q, int k, int without) const {
+    double p = 1;
+    for (int e = 0; e < Dim; ++e) {
+      if (e != without) p *= (k >> e) & 1 ? position[q][e] : 1 - position[q][e];
+    }
+    return p;
+  }
+};
+
+template <int Dim>
+inline constexpr MidEdgeShapes<Dim> mid_edge_shapes{};
+
+/// Where an element lies and which cells stand for its corners.
+///
+/// A corner on the boundary has no velocity of its own: component e there is factor[k][e] times that of the cell next to it
+/// (0 where the wall holds it, 1 where it is free).
+template <int Dim>
+struct DualElement {
+  Cell corner[corner_count<Dim>];
+  int place[corner_count<Dim>];  ///< sum of 3^d over the axes d along which the corner's cell is the higher of two
+  double factor[corner_count<Dim>][Dim];
+  double inverse_width[Dim];
+  double radius[2];  ///< of the two ends along axis 0; 1 unless axisymmetric
+  double measure;    ///< product of the widths
+  bool axisymmetric;
+
+  /// Weight of mid-edge point q: its share of the element's volume.
+  double weight(int q) const { return measure / point_count<Dim> * radius_at(q); }
+  double radius_at(int q) const {
+    const double t = mid_edge_shapes<Dim>.position[q][0];
+    return (1 - t) * radius[0] + t * radius[1];
+  }
+};
+
+/// Builds the elements of a domain.
+template <int Dim>
+class DualMesh {
+ public:
+  explicit DualMesh(const Domain<Dim>& domain);
+
+  /// The element around node n with multi-index i, 0 <= i <= number of cells along each axis.
+  DualElement<Dim> element(Node n, const Index<Dim>& i) const {
+    DualElement<Dim> e;
+    e.measure = 1;
+    e.axisymmetric = axisymmetric_;
+    for (int d = 0; d < Dim; ++d) {
+      const double width = axes_[static_cast<std::size_t>(d)].width[static_cast<std::size_t>(i[d])];
+      e.inverse_width[d] = 1 / width;
+      e.measure *= width;
+    }
+    e.radius[0] = axisymmetric_ ? axes_[0].position[static_cast<std::size_t>(i[0])] : 1.0;
+    e.radius[1] = axisymmetric_ ? axes_[0].position[static_cast<std::size_t>(i[0]) + 1] : 1.0;
+    for (int k = 0; k < corner_count<Dim>; ++k) {
+      e.corner[k] = high_cell(n);
+      e.place[k] = 0;
+      for (int c = 0; c < Dim; ++c) e.factor[k][c] = 1;
+      for (int d = 0, power = 1; d < Dim; ++d, power *= 3) {
+        const bool high = (k >> d) & 1;
+        const bool outside_low = !high && i[d] == 0;
+        const bool outside_high = high && i[d] == cells_[d];
+        if (outside_high || (!high && !outside_low)) {
+          e.corner[k] = e.corner[k] - step_[d];
+        } else {
+          e.place[k] += power;
+        }
+        if (outside_low || outside_high) {
+          for (int c = 0; c < Dim; ++c) e.factor[k][c] *= wall_factor_[d][outside_high ? 1 : 0][c];
+        }
+      }
+    }
+    return e;
+  }
+
+ private:
+  struct Axis {
+    std::vector<double> position;  ///< low boundary point, centres, high boundary point
+    std::vector<double> width;     ///< of the intervals between positions
+  };
+  std::array<Axis, static_cast<std::size_t>(Dim)> axes_;
+  Index<Dim> cells_;
+  Step step_[Dim];
+  double wall_factor_[Dim][2][Dim];  ///< [axis][side][component]
+  bool axisymmetric_;
+};
+
+/// Corner velocities of an element, boundary factors applied.
+template <int Dim>
+void gather(const DualElement<Dim>& e, const CellVectors<Dim>& u, double (&corner)[corner_count<Dim>][Dim]) {
+  for (int k = 0; k < corner_count<Dim>; ++k) {
+    for (int c = 0; c < Dim; ++c) corner[k][c] = e.factor[k][c] * u[c][e.corner[k]];
+  }
+}
+
+/// Strain rate at one point: Delta of (30), its hoop component apart, and s = sqrt(1/2 Delta:Delta).
+template <int Dim>
+struct StrainRate {
+  double delta[Dim][Dim];
+  double third;  ///< Delta of the direction without gradient: hoop, or normal to the plane (2-D only)
+  double scalar;
+};
+
+/// Strain rate at mid-edge point q of an element from its corner velocities (boundary factors applied). On the axis
+/// itself the hoop strain is not defined; points there have no weight and must be left out.
+template <int Dim>
+StrainRate<Dim> strain_rate(const DualElement<Dim>& e, int q, const double (&u)[corner_count<Dim>][Dim]) {
+  const auto& shapes = mid_edge_shapes<Dim>;
+  double gradient[Dim][Dim] = {};  // [component][axis]
+  double hoop = 0;
+  for (int k = 0; k < corner_count<Dim>; ++k) {
+    for (int d = 0; d < Dim; ++d) {
+      const double dN = shapes.derivative[q][k][d] * e.inverse_width[d];
+      for (int c = 0; c < Dim; ++c) gradient[c][d] += u[k][c] * dN;
+    }
+    hoop += shapes.value[q][k] * u[k][0];
+  }
+  hoop = e.axisymmetric ? hoop / e.radius_at(q) : 0.0;
+  double divergence = hoop;
+  for (int d = 0; d < Dim; ++d) divergence += gradient[d][d];
+  StrainRate<Dim> s{};
+  double twice_square = 0;
+  for (int a = 0; a < Dim; ++a) {
+    for (int b = 0; b < Dim; ++b) {
+      s.delta[a][b] = gradient[a][b] + gradient[b][a] - (a == b ? 2 * divergence / 3 : 0.0);
+      twice_square += s.delta[a][b] * s.delta[a][b];
+    }
+  }
+  if constexpr (Dim == 2) {
+    s.third = 2 * hoop - 2 * divergence / 3;
+    twice_square += s.third * s.third;
+  }
+  s.scalar = std::sqrt(0.5 * twice_square);
+  return s;
+}
+
+extern template class DualMesh<2>;
+extern template class DualMesh<3>;
+
+}  // namespace quicksand

@@ -1,0 +1,97 @@
+#pragma once
+/// \file
+/// The time step: the report's equations strung together.
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "core/domain.hpp"
+#include "physics/convection.hpp"
+#include "physics/diffusion.hpp"
+#include "physics/mac_projection.hpp"
+#include "physics/projection.hpp"
+#include "physics/redistribution.hpp"
+#include "physics/state.hpp"
+
+namespace quicksand {
+
+/// What stays the same during a run.
+template <int Dim>
+struct FlowParameters {
+  std::vector<Species> species;
+  Vec<Dim> gravity;              ///< acceleration vector, downwards along the last axis as a rule
+  double ambient_pressure = 0;
+  double liquid_threshold = 0.5; ///< eps of D = {sum phi >= 1 - eps}
+  SolveOptions linear;           ///< both projections
+  SolveOptions momentum{{.relative = 1e-13}, Method::jacobi};  ///< momentum redistribution; cheap, and energy hangs on it
+  ObstacleOptions obstacle;
+  DiffusionOptions diffusion;
+};
+
+enum class Phase { convection, mac_projection, redistribute_volume, redistribute_momentum, diffusion, projection };
+inline constexpr std::array<std::string_view, 6> phase_names = {
+    "convection", "mac_projection", "redistribute_volume", "redistribute_momentum", "diffusion", "projection"};
+
+/// What became of one step.
+struct StepReport {
+  std::array<double, phase_names.size()> seconds{};
+  SolveReport mac;
+  std::vector<ObstacleReport> obstacle;  ///< per species
+  SolveReport momentum;
+  DiffusionReport diffusion;
+  SolveReport projection;
+  double redistribution_energy_change = 0;  ///< kinetic energy after less before, (24)-(27) and (11) together
+  double projection_energy_change = 0;      ///< kinetic energy of u^{n+1} less that of (52)
+};
+
+/// A flow on one grid: its state and the work arrays of its phases.
+template <int Dim>
+class Flow {
+ public:
+  Flow(Domain<Dim> domain, FlowParameters<Dim> parameters);
+
+  const Domain<Dim>& domain() const { return domain_; }
+  const FlowParameters<Dim>& parameters() const { return parameters_; }
+  const State<Dim>& state() const { return state_; }
+  /// For initial conditions; fractions and velocities of owned cells suffice.
+  State<Dim>& state() { return state_; }
+  /// Volume of each species that has left through open sides (negative: come in), per radian in axisymmetric flows.
+  const std::vector<double>& escaped() const { return escaped_; }
+  /// Fields that follow from the current state's fractions, valid after initialize() or advance().
+  const CellField& total() const { return total_; }
+  const CellField& density() const { return rho_; }
+  const CellMask& liquid() const { return liquid_; }
+  /// Dual mesh and the rheology of its elements in the current state.
+  const DiffusionWork<Dim>& diffusion() const { return diffusion_; }
+
+  /// Makes the flow ready to advance after state() was set from outside.
+  void initialize();
+  /// Advances by dt. The state is left as it was when this throws.
+  /// \throws NumericalError when a solve fails or a value is not finite
+  StepReport advance(double dt);
+
+ private:
+  /// Ghost cells, total(), density() and liquid() of the current state.
+  void refresh();
+
+  Domain<Dim> domain_;
+  FlowParameters<Dim> parameters_;
+  State<Dim> state_, next_;
+  std::vector<double> escaped_;
+  CellField total_, rho_;
+  CellMask liquid_;
+  CellField next_total_, next_rho_;
+  CellMask next_liquid_;
+  CellVectors<Dim> momentum_tilde_, u_bar_, u_hat_;
+  FaceVelocities<Dim> face_velocities_;
+  ConvectionWork<Dim> convection_;
+  MacProjectionWork<Dim> mac_;
+  RedistributionWork<Dim> redistribution_;
+  DiffusionWork<Dim> diffusion_;
+  ProjectionWork<Dim> projection_;
+};
+
+extern template class Flow<2>;
+extern template class Flow<3>;
+
+}  // namespace quicksand

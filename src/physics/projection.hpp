@@ -1,0 +1,39 @@
+#pragma once
+/// \file
+/// Pressure projection (50)-(52) with bilinear (trilinear) pressure on the nodes.
+///
+/// The pressure is continuous and linear along each axis in a cell, its gradient in a cell is the element mean, and the
+/// divergence at a node is the adjoint. With exactly integrated stiffness this approximate projection (Almgren, Bell and
+/// Szymczak 1996) never raises the kinetic energy when the gas pressure is uniform.
+#include "core/domain.hpp"
+#include "solvers/linear_solver.hpp"
+
+namespace quicksand {
+
+/// Work arrays of the projection.
+template <int Dim>
+struct ProjectionWork {
+  StencilMatrix<Dim, Node> matrix;
+  NodeMask free;
+  NodeField rhs;
+  NodeField increment;  ///< pressure above the gas pressure
+
+  explicit ProjectionWork(const Layout<Dim>& layout)
+      : matrix(layout, Stencil::box), free(layout), rhs(layout), increment(layout) {}
+};
+
+/// u += factor dt / rho grad P in the cells of D: factor -1 applies a pressure gradient, +1 takes it back.
+template <int Dim>
+void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure, const CellField& rho,
+                           const CellMask& liquid, double factor_dt, CellVectors<Dim>& u);
+
+/// Solves dt div(1/rho grad P) = div u-bar* in D (51), with P = gas_pressure on nodes that touch a cell outside D.
+/// \param u_bar_star  (52), owned cells
+/// \param pressure    the last step's pressure on entry (first guess), P^{n+1/2} on return; gas_pressure outside D
+/// \throws NumericalError when the solve does not converge
+template <int Dim>
+SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, const CellField& rho,
+                           const CellMask& liquid, double gas_pressure, double dt, const SolveOptions& options,
+                           ProjectionWork<Dim>& work, NodeField& pressure);
+
+}  // namespace quicksand

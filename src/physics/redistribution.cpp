@@ -1,0 +1,176 @@
+#include "physics/redistribution.hpp"
+
+#include <algorithm>
+
+namespace quicksand {
+
+namespace {
+
+/// Below this density a cell's velocity is the quotient of two round-off errors.
+constexpr double least_density = 1e-200;
+
+/// -div grad in finite volumes; `rule(d, s)` gives the ghost rule (its alpha) on side s of axis d.
+template <int Dim, class Rule>
+void assemble_laplacian(const Grid<Dim>& grid, Rule&& rule, StencilMatrix<Dim, Cell>& matrix) {
+  const Layout<Dim>& layout = grid.layout();
+  const auto coefficient = [&](int d, Face f) {
+    const Cell high = high_cell(f);
+    return grid.area(d, f) / (0.5 * (grid.width(d, high) + grid.width(d, high - grid.step(d))));
+  };
+  for_each_indexed<Cell>(layout, grid.cells(), [&](Cell c, const Index<Dim>& i) {
+    double diagonal = 0;
+    for (int d = 0; d < Dim; ++d) {
+      double below = coefficient(d, low_face(c));
+      double above = coefficient(d, low_face(c + grid.step(d)));
+      matrix.lower[static_cast<std::size_t>(d)][c] = i[d] == 0 ? 0.0 : -below;
+      // ghost = alpha * mirror: the difference across the side is (1 - alpha) * mirror.
+      if (i[d] == 0 && grid.at_boundary(d, 0)) below *= 1 - rule(d, 0).alpha;
+      if (i[d] == grid.owned_cells()[d] - 1 && grid.at_boundary(d, 1)) above *= 1 - rule(d, 1).alpha;
+      diagonal += below + above;
+    }
+    matrix.diagonal[c] = diagonal;
+  });
+}
+
+/// phi -= A H / V; returns the volume that leaves through open sides.
+template <int Dim>
+double apply_potential(const Domain<Dim>& domain, const CellField& H, StencilMatrix<Dim, Cell>& laplacian,
+                       CellField& change, CellField& phi) {
+  laplacian.apply(H, change);
+  for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) { phi[c] -= change[c] / domain.grid.volume(c); });
+  return sum<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) { return change[c]; });
+}
+
+/// Round-off can leave -1e-17 where a cell gave all it had: the largest neighbour makes up for it, so that nothing is
+/// cut off. Serial, because such cells are few.
+template <int Dim>
+void settle_negative(const Domain<Dim>& domain, CellField& phi) {
+  const Grid<Dim>& grid = domain.grid;
+  const double deepest = -maximum<Cell>(domain.layout(), grid.cells(), 0.0, [&](Cell c) { return -phi[c]; });
+  if (deepest >= 0) return;
+  const detail::Rows<Dim> rows(domain.layout(), grid.cells());
+  for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
+    for (int i = 0; i < rows.length; ++i) {
+      const Cell c{rows.start(r) + i};
+      if (phi[c] >= 0) continue;
+      const Index<Dim> index = domain.layout().multi(c.n);
+      Cell donor = c;
+      for (int d = 0; d < Dim; ++d) {
+        if (index[d] > 0 && phi[c - grid.step(d)] > phi[donor]) donor = c - grid.step(d);
+        if (index[d] + 1 < grid.owned_cells()[d] && phi[c + grid.step(d)] > phi[donor]) donor = c + grid.step(d);
+      }
+      if (donor == c) continue;
+      const double given = std::min(-phi[c] * grid.volume(c), std::max(phi[donor], 0.0) * grid.volume(donor));
+      phi[c] += given / grid.volume(c);
+      phi[donor] -= given / grid.volume(donor);
+    }
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+RedistributionWork<Dim>::RedistributionWork(const Domain<Dim>& domain, std::size_t n_species)
+    : laplacian(domain.layout(), Stencil::star),
+      momentum(static_cast<std::size_t>(Dim), StencilMatrix<Dim, Cell>(domain.layout(), Stencil::star)),
+      H_species(n_species, CellField(domain.layout())),
+      H(domain.layout()),
+      excess(domain.layout()),
+      system(domain.layout(), Stencil::star),
+      y(domain.layout()),
+      rhs(domain.layout()) {
+  const Grid<Dim>& grid = domain.grid;
+  assemble_laplacian(grid, [&](int d, int s) { return potential_rule(domain.sides.at(d, s)); }, laplacian);
+  for (int e = 0; e < Dim; ++e) {
+    StencilMatrix<Dim, Cell>& matrix = momentum[static_cast<std::size_t>(e)];
+    assemble_laplacian(
+        grid,
+        [&](int d, int s) {
+          // H vanishes on an open side, whatever the velocity does there.
+          const Side& side = domain.sides.at(d, s);
+          return is_open(side) ? potential_rule(side) : inviscid_velocity_rule(side, d == e);
+        },
+        matrix);
+    if (e == 0 && grid.axisymmetric()) {
+      for_each_indexed<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+        const double r = grid.centre_position(0, i[0]);
+        matrix.diagonal[c] += grid.volume(c) / (r * r);
+      });
+    }
+  }
+}
+
+template <int Dim>
+std::vector<ObstacleReport> redistribute_volume(const Domain<Dim>& domain, const std::vector<Species>& species,
+                                                const ObstacleOptions& options, RedistributionWork<Dim>& work,
+                                                Fractions& phi, std::vector<double>& escaped) {
+  const Grid<Dim>& grid = domain.grid;
+  const Layout<Dim>& layout = domain.layout();
+  std::vector<ObstacleReport> reports;
+  work.H.fill(0);
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    CellField& H_i = work.H_species[i];
+    for_each<Cell>(layout, grid.cells(), [&](Cell c) {
+      double taken = 0;
+      for (std::size_t j = 0; j < i; ++j) taken += phi[j][c];
+      work.excess[c] = (phi[i][c] - std::max(1 - taken, 0.0)) * grid.volume(c);
+    });
+    reports.push_back(solve_obstacle(work.laplacian, work.excess, grid.volumes(), H_i, options));
+    if (reports.back().trivial) continue;
+    escaped[i] += apply_potential(domain, H_i, work.laplacian, work.rhs, phi[i]);
+    settle_negative(domain, phi[i]);
+    for_each<Cell>(layout, grid.cells(), [&](Cell c) { work.H[c] += species[i].density * H_i[c]; });
+  }
+  return reports;
+}
+
+template <int Dim>
+SolveReport redistribute_momentum(const Domain<Dim>& domain, const CellVectors<Dim>& momentum_tilde,
+                                  const CellField& rho, const SolveOptions& options, RedistributionWork<Dim>& work,
+                                  CellVectors<Dim>& u_bar) {
+  const Grid<Dim>& grid = domain.grid;
+  const Layout<Dim>& layout = domain.layout();
+  const CellField& H = work.H;
+  StencilMatrix<Dim, Cell>& system = work.system;
+  system.box = bounding_box<Cell>(layout, grid.cells(), [&](Cell c) { return H[c] > 0; });
+  SolveReport worst{.converged = true};
+  for (int e = 0; e < Dim; ++e) {
+    const StencilMatrix<Dim, Cell>& A = work.momentum[static_cast<std::size_t>(e)];
+    work.y.fill(0);
+    if (!system.box.empty()) {
+      for_each<Cell>(layout, system.box, [&](Cell c) {
+        const bool in = H[c] > 0;
+        system.diagonal[c] = in ? grid.volume(c) * rho[c] / H[c] + A.diagonal[c] : 1.0;
+        for (int d = 0; d < Dim; ++d) {
+          const std::size_t k = static_cast<std::size_t>(d);
+          system.lower[k][c] = in && H[c - grid.step(d)] > 0 ? A.lower[k][c] : 0.0;
+        }
+        work.rhs[c] = in ? grid.volume(c) * momentum_tilde[e][c] : 0.0;
+        work.y[c] = in ? H[c] * momentum_tilde[e][c] / rho[c] : 0.0;
+      });
+      const SolveReport report = solve(system, work.rhs, work.y, options);
+      require_converged(report, "momentum redistribution");
+      if (report.iterations > worst.iterations) worst = report;
+    }
+    // In flux form, so that momentum is conserved however well y was solved for.
+    A.apply(work.y, work.rhs);
+    for_each<Cell>(layout, grid.cells(), [&](Cell c) {
+      const double momentum = momentum_tilde[e][c] - work.rhs[c] / grid.volume(c);
+      u_bar[e][c] = rho[c] > least_density ? momentum / rho[c] : 0.0;
+    });
+  }
+  return worst;
+}
+
+#define QUICKSAND_INSTANTIATE(Dim)                                                                                    \
+  template struct RedistributionWork<Dim>;                                                                            \
+  template std::vector<ObstacleReport> redistribute_volume(const Domain<Dim>&, const std::vector<Species>&,           \
+                                                           const ObstacleOptions&, RedistributionWork<Dim>&,          \
+                                                           Fractions&, std::vector<double>&);                         \
+  template SolveReport redistribute_momentum(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&,           \
+                                             const SolveOptions&, RedistributionWork<Dim>&, CellVectors<Dim>&);
+QUICKSAND_INSTANTIATE(2)
+QUICKSAND_INSTANTIATE(3)
+#undef QUICKSAND_INSTANTIATE
+
+}  // namespace quicksand

@@ -1,0 +1,43 @@
+#include "physics/stress.hpp"
+
+namespace quicksand {
+
+template <int Dim>
+StressFields evaluate_stress(const Flow<Dim>& flow) {
+  const Grid<Dim>& grid = flow.domain().grid;
+  const DiffusionWork<Dim>& work = flow.diffusion();
+  StressFields fields{CellField(grid.layout()), CellField(grid.layout()), CellField(grid.layout())};
+  CellField weights(grid.layout());
+  for_each_coloured<Node>(grid.layout(), grid.nodes(), [&](Node n, const Index<Dim>& index) {
+    if (!work.active[n]) return;
+    const DualElement<Dim> e = work.mesh.element(n, index);
+    double corner[corner_count<Dim>][Dim];
+    gather(e, flow.state().u, corner);
+    for (int q = 0; q < point_count<Dim>; ++q) {
+      if (!(e.weight(q) > 0)) continue;
+      const Rheology& rheology = work.rheology[n];
+      const double s = strain_rate(e, q, corner).scalar;
+      const double f = effective_viscosity(rheology, s);
+      for (int k = 0; k < corner_count<Dim>; ++k) {
+        const double share = e.weight(q) * mid_edge_shapes<Dim>.value[q][k];
+        const Cell c = e.corner[k];
+        weights[c] += share;
+        fields.viscosity[c] += share * f;
+        fields.magnitude[c] += share * f * s;
+        fields.unyielded[c] += f * s < rheology.yield_stress ? share : 0.0;
+      }
+    }
+  });
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c) {
+    const double scale = weights[c] > 0 ? 1 / weights[c] : 0.0;
+    fields.viscosity[c] *= scale;
+    fields.magnitude[c] *= scale;
+    fields.unyielded[c] *= scale;
+  });
+  return fields;
+}
+
+template StressFields evaluate_stress(const Flow<2>&);
+template StressFields evaluate_stress(const Flow<3>&);
+
+}  // namespace quicksand

@@ -1,0 +1,65 @@
+#include "physics/surface.hpp"
+
+#include <cmath>
+
+namespace quicksand {
+
+namespace {
+
+/// Fractions closer than this to 0 or 1 count as uncut: their planes would be noise.
+constexpr double uncut = 1e-8;
+
+/// Outward normal times cell width along each axis, from differences of the fraction averaged over the 3^Dim block with weights
+/// 1-2-1 across (Youngs 1984).
+template <int Dim>
+Vec<Dim> youngs_normal(const Grid<Dim>& grid, const CellField& total, Cell c) {
+  Vec<Dim> n;
+  for (int d = 0; d < Dim; ++d) {
+    const Step along = grid.step(d);
+    double difference = 0;
+    constexpr int across_count = Dim == 2 ? 3 : 9;
+    for (int k = 0; k < across_count; ++k) {
+      Cell at = c;
+      double weight = 1;
+      int rest = k;
+      for (int e = 0; e < Dim; ++e) {
+        if (e == d) continue;
+        const int shift = rest % 3 - 1;
+        rest /= 3;
+        at = at + shift * grid.step(e);
+        weight *= shift == 0 ? 2 : 1;
+      }
+      difference += weight * (total[at - along] - total[at + along]);
+    }
+    const double distance = grid.width(d, c) + 0.5 * (grid.width(d, c - along) + grid.width(d, c + along));
+    n[d] = difference * grid.width(d, c) / distance;
+  }
+  return n;
+}
+
+}  // namespace
+
+template <int Dim>
+void reconstruct_surface(const Grid<Dim>& grid, const CellField& total, Surface<Dim>& surface) {
+  for_each<Cell>(grid.layout(), grow(grid.cells(), 1), [&](Cell c) {
+    for (int d = 0; d < Dim; ++d) surface.normal[d][c] = 0;
+    if (total[c] < uncut || total[c] > 1 - uncut) return;
+    const Vec<Dim> n = youngs_normal(grid, total, c);
+    double norm = 0;
+    for (int d = 0; d < Dim; ++d) norm += std::abs(n[d]);
+    if (norm < uncut) return;
+    Vec<Dim> m;
+    double mirrored = 0;
+    for (int d = 0; d < Dim; ++d) {
+      surface.normal[d][c] = n[d] / norm;
+      m[d] = std::abs(n[d]) / norm;
+      if (n[d] < 0) mirrored += m[d];
+    }
+    surface.offset[c] = plane_offset(m, total[c]) - mirrored;
+  });
+}
+
+template void reconstruct_surface(const Grid<2>&, const CellField&, Surface<2>&);
+template void reconstruct_surface(const Grid<3>&, const CellField&, Surface<3>&);
+
+}  // namespace quicksand

@@ -1,0 +1,60 @@
+#include "physics/velocity_matrix.hpp"
+
+namespace quicksand {
+
+template <int Dim>
+VelocityMatrix<Dim>::VelocityMatrix(const Layout<Dim>& layout)
+    : diagonal_(at(Dim), StencilMatrix<Dim, Cell>(layout, Stencil::box)),
+      cross_centre_(at(Dim * (Dim - 1) / 2), CellField(layout)),
+      cross_lower_(at(Dim * Dim)) {
+  for (int a = 0; a < Dim; ++a) {
+    for (int b = 0; b < Dim; ++b) {
+      if (a != b) cross_lower_[at(a * Dim + b)].assign(offsets().size(), CellField(layout));
+    }
+  }
+}
+
+template <int Dim>
+void VelocityMatrix<Dim>::set_box(const Box<Dim>& box) {
+  for (StencilMatrix<Dim, Cell>& m : diagonal_) m.box = box;
+}
+
+template <int Dim>
+void VelocityMatrix<Dim>::clear() {
+  // One layer more, where apply() reads the couplings of rows around the box.
+  const Box<Dim> rows = grow(box(), 1);
+  const auto zero = [&](CellField& f) { for_each<Cell>(diagonal_[0].layout, rows, [&](Cell c) { f[c] = 0; }); };
+  for (int a = 0; a < Dim; ++a) {
+    for (int b = 0; b < Dim; ++b) {
+      if (b >= a) zero(centre(a, b));
+      for (std::size_t e = 0; e < offsets().size(); ++e) zero(lower(a, b, e));
+    }
+  }
+}
+
+template <int Dim>
+void VelocityMatrix<Dim>::apply(const CellVectors<Dim>& x, CellVectors<Dim>& y) const {
+  const Layout<Dim>& layout = diagonal_[0].layout;
+  const std::vector<Step>& steps = diagonal_[0].steps;
+  for (int a = 0; a < Dim; ++a) {
+    diagonal_[at(a)].apply(x[a], y[a]);
+    for (int b = 0; b < Dim; ++b) {
+      if (a == b) continue;
+      const CellField& here = centre(a, b);
+      const CellField& from = x[b];
+      CellField& to = y[a];
+      for_each<Cell>(layout, box(), [&](Cell c) { to[c] += here[c] * from[c]; });
+      for (std::size_t e = 0; e < steps.size(); ++e) {
+        const Step s = steps[e];
+        const CellField& down = lower(a, b, e);
+        const CellField& up = lower(b, a, e);
+        for_each<Cell>(layout, box(), [&](Cell c) { to[c] += down[c] * from[c - s] + up[c + s] * from[c + s]; });
+      }
+    }
+  }
+}
+
+template class VelocityMatrix<2>;
+template class VelocityMatrix<3>;
+
+}  // namespace quicksand

@@ -1,0 +1,310 @@
+// The only file that knows hypre.
+// MPI's C interface is enough; its old C++ bindings would add a library.
+#define OMPI_SKIP_MPICXX 1
+#define MPICH_SKIP_MPICXX 1
+#include <HYPRE_config.h>
+#include <HYPRE_struct_ls.h>
+#include <HYPRE_utilities.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "solvers/multigrid.hpp"
+
+namespace quicksand {
+
+namespace {
+
+#if defined(HYPRE_SEQUENTIAL)
+constexpr MPI_Comm self_communicator = 0;
+#else
+const MPI_Comm self_communicator = MPI_COMM_SELF;
+#endif
+
+/// MPI and hypre, started on first use and ended at exit. A program that brought up MPI itself also ends it.
+class Session {
+ public:
+  static void ensure() { static const Session session; }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+ private:
+  Session() {
+#if !defined(HYPRE_SEQUENTIAL)
+    int running = 0;
+    MPI_Initialized(&running);
+    if (running == 0) {
+      MPI_Init(nullptr, nullptr);
+      owns_mpi_ = true;
+    }
+#endif
+#if HYPRE_RELEASE_NUMBER >= 22900
+    HYPRE_Initialize();
+#else
+    HYPRE_Init();
+#endif
+  }
+  ~Session() {
+#if defined(HYPRE_SEQUENTIAL)
+    HYPRE_Finalize();
+#else
+    int ended = 0;
+    MPI_Finalized(&ended);
+    if (ended != 0) return;
+    HYPRE_Finalize();
+    if (owns_mpi_) MPI_Finalize();
+#endif
+  }
+
+  [[maybe_unused]] bool owns_mpi_ = false;
+};
+
+/// hypre's error flag is global and sticky: read and clear it.
+void check_and_clear(const char* what) {
+  const HYPRE_Int flag = HYPRE_GetError() & ~HYPRE_ERROR_CONV;
+  HYPRE_ClearAllErrors();
+  if (flag == 0) return;
+  std::array<char, 1024> text{};
+  HYPRE_DescribeError(flag, text.data());
+  throw NumericalError(std::string("hypre, ") + what + ": " + text.data());
+}
+
+/// The axes of a box that hypre gets to see. Axes of one cell are left out, because they would only slow it down; two
+/// axes are the least its solvers take.
+template <int Dim>
+struct SeenAxes {
+  std::array<int, static_cast<std::size_t>(Dim)> axis{};
+  std::size_t count = 0;
+
+  explicit SeenAxes(const Box<Dim>& box) {
+    std::array<bool, static_cast<std::size_t>(Dim)> seen{};
+    std::size_t long_axes = 0;
+    for (int d = 0; d < Dim; ++d) {
+      if (box.extent(d) > 1) seen[static_cast<std::size_t>(d)] = true, ++long_axes;
+    }
+    for (std::size_t d = 0; d < seen.size() && long_axes < 2; ++d) {
+      if (!seen[d]) seen[d] = true, ++long_axes;
+    }
+    for (int d = 0; d < Dim; ++d) {
+      if (seen[static_cast<std::size_t>(d)]) axis[count++] = d;
+    }
+  }
+};
+
+using HypreIndex = std::array<HYPRE_Int, 3>;
+
+}  // namespace
+
+template <int Dim, class At>
+struct Multigrid<Dim, At>::Hierarchy {
+  Hierarchy(const StencilMatrix<Dim, At>& matrix, MultigridKind kind_in)
+      : layout(matrix.layout), box(matrix.box), kind(kind_in), axes(box), values(static_cast<std::size_t>(box.size())) {
+    Session::ensure();
+    HYPRE_ClearAllErrors();
+    for (std::size_t d = 0; d < axes.count; ++d) high[d] = box.extent(axes.axis[d]) - 1;
+    try {
+      create_grid();
+      create_matrix(matrix);
+      create_vectors();
+      create_solver(matrix.stencil);
+    } catch (...) {
+      destroy();
+      throw;
+    }
+  }
+  Hierarchy(const Hierarchy&) = delete;
+  Hierarchy& operator=(const Hierarchy&) = delete;
+  ~Hierarchy() { destroy(); }
+
+  void cycle(const Field<At>& r, Field<At>& z) {
+    pack(r);
+    HYPRE_StructVectorSetBoxValues(right_hand_side, low.data(), high.data(), values.data());
+    if (kind == MultigridKind::pfmg) {
+      HYPRE_StructPFMGSolve(solver, operator_, right_hand_side, solution);
+    } else {
+      HYPRE_StructSMGSolve(solver, operator_, right_hand_side, solution);
+    }
+    HYPRE_StructVectorGetBoxValues(solution, low.data(), high.data(), values.data());
+    check_and_clear("multigrid cycle");
+    unpack(z);
+  }
+
+ private:
+  void create_grid() {
+    HYPRE_StructGridCreate(self_communicator, static_cast<HYPRE_Int>(axes.count), &grid);
+    HYPRE_StructGridSetExtents(grid, low.data(), high.data());
+    HYPRE_StructGridAssemble(grid);
+    check_and_clear("grid");
+  }
+
+  void create_matrix(const StencilMatrix<Dim, At>& matrix) {
+    // Entry 0 is the diagonal, then the lower couplings within the axes seen; symmetric storage implies the upper ones.
+    std::vector<HypreIndex> shape(1, HypreIndex{});
+    std::vector<const Field<At>*> coefficient(1, &matrix.diagonal);
+    for (std::size_t e = 0; e < matrix.offsets.size(); ++e) {
+      HypreIndex offset{};
+      int moves = 0;
+      for (int d = 0; d < Dim; ++d) moves += matrix.offsets[e][d] != 0 ? 1 : 0;
+      for (std::size_t d = 0; d < axes.count; ++d) {
+        offset[d] = matrix.offsets[e][axes.axis[d]];
+        moves -= offset[d] != 0 ? 1 : 0;
+      }
+      if (moves != 0) continue;
+      shape.push_back(offset);
+      coefficient.push_back(&matrix.lower[e]);
+    }
+    HYPRE_StructStencilCreate(static_cast<HYPRE_Int>(axes.count), static_cast<HYPRE_Int>(shape.size()), &stencil);
+    for (std::size_t k = 0; k < shape.size(); ++k) {
+      HYPRE_StructStencilSetElement(stencil, static_cast<HYPRE_Int>(k), shape[k].data());
+    }
+    HYPRE_StructMatrixCreate(self_communicator, grid, stencil, &operator_);
+    HYPRE_StructMatrixSetSymmetric(operator_, 1);
+    HYPRE_StructMatrixInitialize(operator_);
+    for (std::size_t k = 0; k < shape.size(); ++k) {
+      pack(*coefficient[k]);
+      drop_couplings_out_of_the_box(shape[k]);
+      HYPRE_Int entry = static_cast<HYPRE_Int>(k);
+      HYPRE_StructMatrixSetBoxValues(operator_, low.data(), high.data(), 1, &entry, values.data());
+    }
+    HYPRE_StructMatrixAssemble(operator_);
+    check_and_clear("matrix");
+  }
+
+  /// A coupling that leads out of the box must be zero, or the coarse matrices are wrong next to it.
+  void drop_couplings_out_of_the_box(const HypreIndex& offset) {
+    std::size_t n = 0;
+    const Index<Dim> extent = extents();
+    for_each_packed([&](const Index<Dim>& i) {
+      for (std::size_t d = 0; d < axes.count; ++d) {
+        const int to = i[axes.axis[d]] + static_cast<int>(offset[d]);
+        if (to < 0 || to >= extent[axes.axis[d]]) values[n] = 0;
+      }
+      ++n;
+    });
+  }
+
+  void create_vectors() {
+    for (HYPRE_StructVector* vector : {&right_hand_side, &solution}) {
+      HYPRE_StructVectorCreate(self_communicator, grid, vector);
+      HYPRE_StructVectorInitialize(*vector);
+      HYPRE_StructVectorSetConstantValues(*vector, 0.0);
+      HYPRE_StructVectorAssemble(*vector);
+    }
+    check_and_clear("vectors");
+  }
+
+  void create_solver(Stencil stencil_kind) {
+    if (kind == MultigridKind::pfmg) {
+      // Red-black relaxation keeps a star stencil on all levels; on box stencils hypre 2.26 writes beyond an array with
+      // it.
+      const HYPRE_Int relaxation = stencil_kind == Stencil::star ? 2 : 1;
+      HYPRE_StructPFMGCreate(self_communicator, &solver);
+      HYPRE_StructPFMGSetMaxIter(solver, 1);
+      HYPRE_StructPFMGSetTol(solver, 0.0);
+      HYPRE_StructPFMGSetZeroGuess(solver);
+      HYPRE_StructPFMGSetRelaxType(solver, relaxation);
+      HYPRE_StructPFMGSetNumPreRelax(solver, 1);
+      HYPRE_StructPFMGSetNumPostRelax(solver, 1);
+      HYPRE_StructPFMGSetLogging(solver, 0);
+      HYPRE_StructPFMGSetPrintLevel(solver, 0);
+      HYPRE_StructPFMGSetup(solver, operator_, right_hand_side, solution);
+      check_and_clear("set-up of PFMG");
+    } else {
+      HYPRE_StructSMGCreate(self_communicator, &solver);
+      HYPRE_StructSMGSetMemoryUse(solver, 0);
+      HYPRE_StructSMGSetMaxIter(solver, 1);
+      HYPRE_StructSMGSetTol(solver, 0.0);
+      HYPRE_StructSMGSetZeroGuess(solver);
+      HYPRE_StructSMGSetNumPreRelax(solver, 1);
+      HYPRE_StructSMGSetNumPostRelax(solver, 1);
+      HYPRE_StructSMGSetLogging(solver, 0);
+      HYPRE_StructSMGSetPrintLevel(solver, 0);
+      HYPRE_StructSMGSetup(solver, operator_, right_hand_side, solution);
+      check_and_clear("set-up of SMG");
+    }
+  }
+
+  void destroy() {
+    if (solver != nullptr) {
+      kind == MultigridKind::pfmg ? HYPRE_StructPFMGDestroy(solver) : HYPRE_StructSMGDestroy(solver);
+    }
+    if (solution != nullptr) HYPRE_StructVectorDestroy(solution);
+    if (right_hand_side != nullptr) HYPRE_StructVectorDestroy(right_hand_side);
+    if (operator_ != nullptr) HYPRE_StructMatrixDestroy(operator_);
+    if (stencil != nullptr) HYPRE_StructStencilDestroy(stencil);
+    if (grid != nullptr) HYPRE_StructGridDestroy(grid);
+    HYPRE_ClearAllErrors();
+  }
+
+  Index<Dim> extents() const {
+    Index<Dim> n;
+    for (int d = 0; d < Dim; ++d) n[d] = box.extent(d);
+    return n;
+  }
+
+  /// Calls body with the index in the box, in the order of `values`.
+  template <class Body>
+  void for_each_packed(Body&& body) const {
+    const Index<Dim> extent = extents();
+    Index<Dim> i;
+    for (std::size_t n = 0; n < values.size(); ++n) {
+      body(i);
+      for (int d = 0; d < Dim && ++i[d] == extent[d]; ++d) i[d] = 0;
+    }
+  }
+
+  /// Copies rows between a field and the gapless array hypre takes: axes of one cell vanish by themselves.
+  template <class FieldType, class Copy>
+  void for_each_row(FieldType& field, Copy&& copy) {
+    const detail::Rows<Dim> rows(layout, box);
+    for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
+      copy(&field[At{rows.start(r)}], values.data() + r * rows.length, rows.length);
+    }
+  }
+  void pack(const Field<At>& field) {
+    for_each_row(field, [](const double* from, double* to, int n) { std::copy_n(from, n, to); });
+  }
+  void unpack(Field<At>& field) {
+    for_each_row(field, [](double* to, const double* from, int n) { std::copy_n(from, n, to); });
+  }
+
+  Layout<Dim> layout;
+  Box<Dim> box;
+  MultigridKind kind;
+  SeenAxes<Dim> axes;
+  std::vector<double> values;
+  HypreIndex low{};
+  HypreIndex high{};
+  HYPRE_StructGrid grid = nullptr;
+  HYPRE_StructStencil stencil = nullptr;
+  HYPRE_StructMatrix operator_ = nullptr;
+  HYPRE_StructVector right_hand_side = nullptr;
+  HYPRE_StructVector solution = nullptr;
+  HYPRE_StructSolver solver = nullptr;
+};
+
+template <int Dim, class At>
+Multigrid<Dim, At>::Multigrid(const StencilMatrix<Dim, At>& matrix, MultigridKind kind)
+    : hierarchy_(std::make_unique<Hierarchy>(matrix, kind)) {}
+template <int Dim, class At>
+Multigrid<Dim, At>::~Multigrid() = default;
+template <int Dim, class At>
+Multigrid<Dim, At>::Multigrid(Multigrid&&) noexcept = default;
+template <int Dim, class At>
+Multigrid<Dim, At>& Multigrid<Dim, At>::operator=(Multigrid&&) noexcept = default;
+
+template <int Dim, class At>
+void Multigrid<Dim, At>::cycle(const Field<At>& r, Field<At>& z) {
+  hierarchy_->cycle(r, z);
+}
+
+std::string hypre_version() { return HYPRE_RELEASE_VERSION; }
+
+template class Multigrid<2, Cell>;
+template class Multigrid<2, Node>;
+template class Multigrid<3, Cell>;
+template class Multigrid<3, Node>;
+
+}  // namespace quicksand

@@ -1,0 +1,145 @@
+#include "solvers/linear_solver.hpp"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "core/errors.hpp"
+
+namespace quicksand {
+
+namespace {
+
+template <int Dim, class At>
+double row_sum(const StencilMatrix<Dim, At>& matrix, At p) {
+  double total = matrix.diagonal[p];
+  for (std::size_t e = 0; e < matrix.lower.size(); ++e)
+    total += matrix.lower[e][p] + matrix.lower[e][p + matrix.steps[e]];
+  return total;
+}
+
+/// Whether the constants over the coupled rows are in the null space: all-Neumann problems.
+template <int Dim, class At>
+bool is_singular(const StencilMatrix<Dim, At>& matrix) {
+  constexpr double round_off = 1e-13;
+  const auto coupled_sum = [&](auto&& f) {
+    return sum<At>(matrix.layout, matrix.box, [&](At p) { return matrix.uncoupled(p) ? 0.0 : f(p); });
+  };
+  const double diagonal = coupled_sum([&](At p) { return matrix.diagonal[p]; });
+  return diagonal > 0 && coupled_sum([&](At p) { return std::abs(row_sum(matrix, p)); }) <= round_off * diagonal;
+}
+
+template <int Dim, class At>
+void remove_mean(const StencilMatrix<Dim, At>& matrix, Field<At>& x) {
+  const double count = sum<At>(matrix.layout, matrix.box, [&](At p) { return matrix.uncoupled(p) ? 0.0 : 1.0; });
+  const double mean =
+      sum<At>(matrix.layout, matrix.box, [&](At p) { return matrix.uncoupled(p) ? 0.0 : x[p]; }) / count;
+  for_each<At>(matrix.layout, matrix.box, [&](At p) { x[p] -= matrix.uncoupled(p) ? 0.0 : mean; });
+}
+
+/// Makes a singular matrix definite by doubling one diagonal. The solution for a consistent right-hand side stays the
+/// one that is zero at that point.
+template <int Dim, class At>
+void pin_one_point(StencilMatrix<Dim, At>& matrix) {
+  const detail::Rows<Dim> rows(matrix.layout, matrix.box);
+  for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
+    for (int i = 0; i < rows.length; ++i) {
+      const At p{rows.start(r) + i};
+      if (matrix.uncoupled(p)) continue;
+      matrix.diagonal[p] *= 2;
+      return;
+    }
+  }
+}
+
+/// One attempt from the guess x. A method that can't be set up counts as not converged.
+template <int Dim, class At>
+SolveReport attempt(const StencilMatrix<Dim, At>& matrix, Method method, const Field<At>& b, Field<At>& x,
+                    Tolerance tolerance) {
+  // Without multigrid the iterations grow with the number of points across the box.
+  if (method == Method::jacobi) tolerance.max_iterations *= 20;
+  try {
+    Preconditioner<Dim, At> preconditioner(matrix, method);
+    return solve(matrix, preconditioner, b, x, tolerance);
+  } catch (const NumericalError&) {
+    SolveReport failure;
+    failure.residual = std::numeric_limits<double>::infinity();
+    failure.method = name(method);
+    return failure;
+  }
+}
+
+template <int Dim, class At>
+SolveReport solve_definite(const StencilMatrix<Dim, At>& matrix, const Field<At>& b, Field<At>& x,
+                           const SolveOptions& options) {
+  const Method first = options.method == Method::automatic ? choose_method(matrix) : options.method;
+  Field<At> guess = x;
+  SolveReport report = attempt(matrix, first, b, x, options);
+  for (const Method method : {Method::smg, Method::jacobi}) {
+    if (report.converged || method == first) continue;
+    // The failed attempt may have gone astray: begin anew from the caller's guess, and keep the better result.
+    Field<At> candidate = guess;
+    SolveReport next = attempt(matrix, method, b, candidate, options);
+    next.iterations += report.iterations;
+    if (next.converged || next.residual < report.residual || !std::isfinite(report.residual)) {
+      report = next;
+      std::swap(x, candidate);
+    }
+  }
+  return report;
+}
+
+}  // namespace
+
+template <int Dim, class At>
+SolveReport solve(const StencilMatrix<Dim, At>& matrix, Preconditioner<Dim, At>& preconditioner, const Field<At>& b,
+                  Field<At>& x, const Tolerance& tolerance) {
+  SolveReport report = conjugate_gradients<At>(
+      matrix.layout, matrix.box, [&](const Field<At>& v, Field<At>& Av) { matrix.apply(v, Av); }, preconditioner, b, x,
+      tolerance);
+  report.method = name(preconditioner.method());
+  return report;
+}
+
+template <int Dim, class At>
+SolveReport solve(const StencilMatrix<Dim, At>& matrix, const Field<At>& b, Field<At>& x, const SolveOptions& options) {
+  if (matrix.box.empty()) {
+    SolveReport nothing;
+    nothing.converged = true;
+    nothing.method = "nothing to solve";
+    return nothing;
+  }
+  if (!is_singular(matrix)) return solve_definite(matrix, b, x, options);
+  StencilMatrix<Dim, At> pinned = matrix;
+  pin_one_point(pinned);
+  Field<At> consistent = b;
+  remove_mean(matrix, consistent);
+  const SolveReport report = solve_definite(pinned, consistent, x, options);
+  remove_mean(matrix, x);
+  return report;
+}
+
+void require_converged(const SolveReport& report, std::string_view what) {
+  if (report.converged) return;
+  std::ostringstream message;
+  message << what << ": the linear solve did not converge (" << report.method << ", " << report.iterations
+          << " iterations, relative residual " << report.residual << ")";
+  throw NumericalError(message.str());
+}
+
+template SolveReport solve(const StencilMatrix<2, Cell>&, const Field<Cell>&, Field<Cell>&, const SolveOptions&);
+template SolveReport solve(const StencilMatrix<2, Node>&, const Field<Node>&, Field<Node>&, const SolveOptions&);
+template SolveReport solve(const StencilMatrix<3, Cell>&, const Field<Cell>&, Field<Cell>&, const SolveOptions&);
+template SolveReport solve(const StencilMatrix<3, Node>&, const Field<Node>&, Field<Node>&, const SolveOptions&);
+
+template SolveReport solve(const StencilMatrix<2, Cell>&, Preconditioner<2, Cell>&, const Field<Cell>&, Field<Cell>&,
+                           const Tolerance&);
+template SolveReport solve(const StencilMatrix<2, Node>&, Preconditioner<2, Node>&, const Field<Node>&, Field<Node>&,
+                           const Tolerance&);
+template SolveReport solve(const StencilMatrix<3, Cell>&, Preconditioner<3, Cell>&, const Field<Cell>&, Field<Cell>&,
+                           const Tolerance&);
+template SolveReport solve(const StencilMatrix<3, Node>&, Preconditioner<3, Node>&, const Field<Node>&, Field<Node>&,
+                           const Tolerance&);
+
+}  // namespace quicksand

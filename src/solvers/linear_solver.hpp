@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// Symmetric positive definite linear systems: which preconditioner suits a stencil matrix, and fallbacks when it does
+/// not.
+#include <string_view>
+
+#include "solvers/conjugate_gradients.hpp"
+#include "solvers/preconditioner.hpp"
+#include "solvers/stencil_matrix.hpp"
+
+namespace quicksand {
+
+struct SolveOptions : Tolerance {
+  Method method = Method::automatic;
+};
+
+/// Solves A x = b on the matrix' box; x is the initial guess on entry.
+///
+/// A must be symmetric and positive definite or, all-Neumann, have the constants (over the rows that are not identity
+/// rows) as its null space. The latter is recognised by the row sums; then b is made consistent by removing its mean,
+/// and x is returned with mean zero. When the method chosen does not converge, SMG and then Jacobi are tried from the
+/// best x. \param b  right-hand side on the box; must be finite \param x  on entry the guess; the layer around the box
+/// must be zero wherever couplings there are not \returns  the report; a caller that can't go on without convergence
+/// passes it to require_converged()
+template <int Dim, class At>
+[[nodiscard]] SolveReport solve(const StencilMatrix<Dim, At>& matrix, const Field<At>& b, Field<At>& x,
+                                const SolveOptions& options = {});
+
+/// The same with a preconditioner that the caller keeps, for matrices that stay; neither fallbacks nor singular
+/// matrices.
+template <int Dim, class At>
+[[nodiscard]] SolveReport solve(const StencilMatrix<Dim, At>& matrix, Preconditioner<Dim, At>& preconditioner,
+                                const Field<At>& b, Field<At>& x, const Tolerance& tolerance);
+
+/// \throws NumericalError naming `what`, the method, the iterations and the residual when the solve did not converge
+void require_converged(const SolveReport& report, std::string_view what);
+
+}  // namespace quicksand

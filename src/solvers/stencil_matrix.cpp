@@ -1,0 +1,177 @@
+#include "solvers/stencil_matrix.hpp"
+
+#include <array>
+#include <type_traits>
+
+namespace quicksand {
+
+namespace {
+
+/// Sum over the off-diagonal couplings of row p times x. `Count` is the number of lower couplings, a constant so that
+/// the loop unrolls and the loop over p vectorises.
+template <std::size_t Count, class At>
+struct Couplings {
+  std::array<const double*, Count> coefficient;
+  std::array<std::ptrdiff_t, Count> step;
+
+  template <int Dim>
+  explicit Couplings(const StencilMatrix<Dim, At>& matrix) {
+    for (std::size_t e = 0; e < Count; ++e) {
+      coefficient[e] = &matrix.lower[e][At{0}];
+      step[e] = matrix.steps[e].n;
+    }
+  }
+  double times(const double* x, std::ptrdiff_t p) const {
+    double total = 0;
+    for (std::size_t e = 0; e < Count; ++e) {
+      total += coefficient[e][p] * x[p - step[e]] + coefficient[e][p + step[e]] * x[p + step[e]];
+    }
+    return total;
+  }
+};
+
+/// Calls body(p, (A x)(p)) for all points of the box.
+template <std::size_t Count, int Dim, class At, class Body>
+void for_each_product(const StencilMatrix<Dim, At>& matrix, const Field<At>& x, const Box<Dim>& where, Body&& body) {
+  const Couplings<Count, At> couplings(matrix);
+  const double* const value = &x[At{0}];
+  const double* const diagonal = &matrix.diagonal[At{0}];
+  for_each<At>(matrix.layout, where, [&](At p) { body(p, diagonal[p.n] * value[p.n] + couplings.times(value, p.n)); });
+}
+
+/// The same for either stencil.
+template <int Dim, class At, class Body>
+void visit_products(const StencilMatrix<Dim, At>& matrix, const Field<At>& x, const Box<Dim>& where, Body&& body) {
+  constexpr std::size_t star = Dim;
+  constexpr std::size_t block = Dim == 2 ? 4 : 13;
+  if (matrix.stencil == Stencil::star) {
+    for_each_product<star>(matrix, x, where, body);
+  } else {
+    for_each_product<block>(matrix, x, where, body);
+  }
+}
+
+template <int Dim>
+Step flat_step(const Layout<Dim>& layout, const Index<Dim>& offset) {
+  Step step;
+  for (int d = 0; d < Dim; ++d) step = step + offset[d] * layout.step(d);
+  return step;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<Index<Dim>> lower_offsets(Stencil stencil) {
+  std::vector<Index<Dim>> offsets;
+  for (int d = 0; d < Dim; ++d) {
+    Index<Dim> offset;
+    offset[d] = -1;
+    offsets.push_back(offset);
+  }
+  if (stencil == Stencil::star) return offsets;
+  int block = 1;
+  for (int d = 0; d < Dim; ++d) block *= 3;
+  // The first half of the block in the order of flat numbers are the neighbours below, bar those along the axes.
+  for (int n = 0; n < block / 2; ++n) {
+    Index<Dim> offset;
+    int moves = 0;
+    for (int d = 0, rest = n; d < Dim; ++d, rest /= 3) {
+      offset[d] = rest % 3 - 1;
+      moves += offset[d] != 0 ? 1 : 0;
+    }
+    if (moves > 1) offsets.push_back(offset);
+  }
+  return offsets;
+}
+
+template <int Dim, class At>
+StencilMatrix<Dim, At>::StencilMatrix(const Layout<Dim>& layout_in, Stencil stencil_in)
+    : layout(layout_in),
+      stencil(stencil_in),
+      box{Index<Dim>{}, layout_in.cells()},
+      offsets(lower_offsets<Dim>(stencil_in)),
+      diagonal(layout_in),
+      lower(offsets.size(), Field<At>(layout_in)) {
+  if constexpr (std::is_same_v<At, Node>) {
+    for (int d = 0; d < Dim; ++d) ++box.hi[d];
+  }
+  for (const Index<Dim>& offset : offsets) steps.push_back(-flat_step(layout, offset));
+}
+
+template <int Dim, class At>
+void StencilMatrix<Dim, At>::apply(const Field<At>& x, Field<At>& y, const Box<Dim>& where) const {
+  visit_products(*this, x, where, [&](At p, double product) { y[p] = product; });
+}
+
+template <int Dim, class At>
+void StencilMatrix<Dim, At>::residual(const Field<At>& b, const Field<At>& x, Field<At>& r,
+                                      const Box<Dim>& where) const {
+  visit_products(*this, x, where, [&](At p, double product) { r[p] = b[p] - product; });
+}
+
+template <int Dim, class At>
+void StencilMatrix<Dim, At>::set_identity(At p) {
+  diagonal[p] = 1;
+  for (std::size_t e = 0; e < lower.size(); ++e) lower[e][p] = lower[e][p + steps[e]] = 0;
+}
+
+template <int Dim, class At>
+bool StencilMatrix<Dim, At>::uncoupled(At p) const {
+  for (std::size_t e = 0; e < lower.size(); ++e) {
+    if (lower[e][p] != 0 || lower[e][p + steps[e]] != 0) return false;
+  }
+  return true;
+}
+
+template <int Dim, class At>
+StencilMatrix<Dim, At> star_part(const StencilMatrix<Dim, At>& matrix) {
+  if (matrix.stencil == Stencil::star) return matrix;
+  const Layout<Dim>& layout = matrix.layout;
+  StencilMatrix<Dim, At> star(layout, Stencil::star);
+  star.box = matrix.box;
+  const auto axis = [](int d) { return static_cast<std::size_t>(d); };
+  for (int d = 0; d < Dim; ++d) {
+    const Step along = layout.step(d);
+    Field<At>& edge = star.lower[axis(d)];
+    Box<Dim> inner = matrix.box;
+    ++inner.lo[d];
+    for_each<At>(layout, inner, [&](At high) {
+      const At low = high - along;
+      double coupling = matrix.lower[axis(d)][high];
+      for (std::size_t e = axis(Dim); e < matrix.offsets.size(); ++e) {
+        const int towards = matrix.offsets[e][d];
+        if (towards == 0) continue;
+        // Couplings of `high` that lead down along d, and of `low` that lead up.
+        const Step s = matrix.steps[e];
+        const bool down = towards < 0;
+        coupling += (matrix.lower[e][down ? high : high + s] + matrix.lower[e][down ? low + s : low]) / 2;
+      }
+      // Between two coupled rows only: identity rows stay identity rows.
+      if (!matrix.uncoupled(low) && !matrix.uncoupled(high)) edge[high] = std::min(coupling, 0.0);
+    });
+  }
+  for_each<At>(layout, matrix.box, [&](At p) {
+    double diagonal = matrix.diagonal[p];
+    for (std::size_t e = 0; e < matrix.lower.size(); ++e) {
+      diagonal += matrix.lower[e][p] + matrix.lower[e][p + matrix.steps[e]];
+    }
+    for (std::size_t e = 0; e < star.lower.size(); ++e) {
+      diagonal -= star.lower[e][p] + star.lower[e][p + star.steps[e]];
+    }
+    star.diagonal[p] = diagonal;
+  });
+  return star;
+}
+
+template std::vector<Index<2>> lower_offsets<2>(Stencil);
+template std::vector<Index<3>> lower_offsets<3>(Stencil);
+template struct StencilMatrix<2, Cell>;
+template struct StencilMatrix<2, Node>;
+template struct StencilMatrix<3, Cell>;
+template struct StencilMatrix<3, Node>;
+template StencilMatrix<2, Cell> star_part(const StencilMatrix<2, Cell>&);
+template StencilMatrix<2, Node> star_part(const StencilMatrix<2, Node>&);
+template StencilMatrix<3, Cell> star_part(const StencilMatrix<3, Cell>&);
+template StencilMatrix<3, Node> star_part(const StencilMatrix<3, Node>&);
+
+}  // namespace quicksand

@@ -1,0 +1,61 @@
+"""Colours and small helpers that all pictures share."""
+import matplotlib
+import numpy as np
+
+INK = "#20262e"
+ARROW = "#17456b"
+BY_NAME = {"water": "#86b8de", "sand": "#e0c08a", "slurry": "#e0c08a", "mud": "#b08e6c", "clay": "#c98f6b", "oil": "#8a8f5a"}
+OTHERS = ["#e0c08a", "#86b8de", "#a5c08a", "#c58fa8", "#9d94c7"]
+
+RC = {
+    "font.family": "DejaVu Sans",
+    "font.size": 9,
+    "axes.edgecolor": INK,
+    "axes.labelcolor": INK,
+    "axes.linewidth": 0.8,
+    "axes.titlesize": 9,
+    "text.color": INK,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "legend.frameon": False,
+    "lines.linewidth": 1.4,
+    "axes.prop_cycle": matplotlib.cycler(color=["#17456b", "#d08a3c", "#4d8f5c", "#8d5a97", "#7d8790"]),
+}
+
+
+def species_colours(names):
+    """RGB of each species: by its name where that says something, else the next free colour."""
+    free = [colour for colour in OTHERS if colour not in [BY_NAME.get(name) for name in names]] or OTHERS
+    colours = []
+    for name in names:
+        colour = BY_NAME.get(name)
+        if colour is None:
+            colour = free[0]
+            free = free[1:] + free[:1]
+        colours.append(np.array([int(colour[n:n + 2], 16) / 255 for n in (1, 3, 5)]))
+    return colours
+
+
+def time_text(snapshot):
+    """Time with its unit, in ms where the whole run takes less than a tenth of a second."""
+    if not snapshot.si_units:
+        return f"t = {snapshot.time:.4g}"
+    if snapshot.end_time < 0.1:
+        return f"t = {1e3 * snapshot.time:.4g} ms"
+    return f"t = {snapshot.time:.4g} s"
+
+
+def chosen(items, most):
+    """At most that many items, evenly spread, first and last among them."""
+    if len(items) <= most:
+        return list(items)
+    return [items[n] for n in np.unique(np.linspace(0, len(items) - 1, most).round().astype(int))]
+
+
+def page_columns(count, aspect):
+    """Columns for panels of a height-to-width ratio such that the page gets about 4:3 with few empty places."""
+    ideal = round(np.sqrt(count * aspect * 4 / 3))
+    candidates = [n for n in (ideal, ideal - 1, ideal + 1) if 1 <= n <= count] or [min(count, max(1, ideal))]
+    return min(candidates, key=lambda n: -(-count // n) * n - count)
