@@ -93,7 +93,8 @@ void check_boundaries(const CaseConfig& config, Reading& reading) {
     if (!side || !exists || !reading.clean(path) || !reading.clean("grid")) continue;
     const bool is_axis = side->kind == SideKind::axis;
     if (is_axis && (!has_axis || path != "boundaries.x_min")) {
-      reading.problem(path, "axis is for x_min of an axisymmetric grid that begins at x = 0; a plane of symmetry is symmetry");
+      reading.problem(
+          path, "axis is for x_min of an axisymmetric grid that begins at x = 0; a plane of symmetry is symmetry");
     }
     if (!is_axis && has_axis && path == "boundaries.x_min") {
       reading.problem(path, "must be axis: the axisymmetric grid begins at x = 0");
@@ -106,7 +107,8 @@ void check_species(const std::vector<Species>& species, Reading& reading) {
     for (std::size_t j = 0; j < i; ++j) {
       if (species[i].name.empty() || species[i].name != species[j].name) continue;
       const std::string first = child_path("species", j) + ".name";
-      reading.problem(child_path("species", i) + ".name", in_quotes(species[i].name) + " is the name of another species too, " +
+      reading.problem(child_path("species", i) + ".name", in_quotes(species[i].name) +
+                                                              " is the name of another species too, " +
                                                               to_string(reading.nearest(first).place));
     }
   }

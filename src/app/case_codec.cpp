@@ -13,14 +13,14 @@ Codec<UnitSystem> units_codec() { return choice<UnitSystem>({{"SI", UnitSystem::
 
 Codec<GridConfig> grid_codec() {
   const auto stretch = choice<Stretch>({{"uniform", Stretch::uniform}, {"smooth", Stretch::smooth}});
-  const auto geometry =
-      choice<Geometry>({{"planar", Geometry::planar}, {"axisymmetric", Geometry::axisymmetric}});
+  const auto geometry = choice<Geometry>({{"planar", Geometry::planar}, {"axisymmetric", Geometry::axisymmetric}});
   const auto axis = one_or_list_of(object<AxisSegment>({
       maybe("from", &AxisSegment::from, quantity(dim::length), "where the segment begins"),
       required("to", &AxisSegment::to, quantity(dim::length), "where the segment ends"),
       required("cells", &AxisSegment::cells, whole_number(1, 1000000), "number of cells of the segment"),
-      defaulted("stretch", &AxisSegment::stretch, stretch,
-                "uniform: equal widths; smooth: geometric progression from the width of the neighbouring segment's cells"),
+      defaulted(
+          "stretch", &AxisSegment::stretch, stretch,
+          "uniform: equal widths; smooth: geometric progression from the width of the neighbouring segment's cells"),
   }));
   return object<GridConfig>({
       required("dimension", &GridConfig::dimension, whole_number(2, 3), "2 for (x, z), 3 for (x, y, z)"),
@@ -92,22 +92,23 @@ Codec<Vec<3>> gravity_codec() {
 Codec<Law> law_codec() {
   const auto viscosity = quantity(dim::viscosity, not_negative);
   return tagged<Law>(
-      "law", {
-                 alternative<Law, Inviscid>("inviscid", {}, "no stress but the pressure"),
-                 alternative<Law, Newtonian>(
-                     "newtonian", {required("viscosity", &Newtonian::viscosity, viscosity, "dynamic viscosity")},
-                     "stress proportional to the strain rate"),
-                 alternative<Law, Papanastasiou>(
-                     "papanastasiou",
-                     {
-                         required("viscosity", &Papanastasiou::viscosity, viscosity, "viscosity above the yield stress"),
-                         required("yield_stress", &Papanastasiou::yield_stress, quantity(dim::pressure, not_negative),
-                                  "stress below which there is hardly any flow"),
-                         required("regularization", &Papanastasiou::regularization, quantity(dim::time, not_negative),
-                                  "exponent of the regularization, a time; larger is closer to Bingham's law"),
-                     },
-                     "Bingham's law made smooth by an exponential"),
-             });
+      "law",
+      {
+          alternative<Law, Inviscid>("inviscid", {}, "no stress but the pressure"),
+          alternative<Law, Newtonian>("newtonian",
+                                      {required("viscosity", &Newtonian::viscosity, viscosity, "dynamic viscosity")},
+                                      "stress proportional to the strain rate"),
+          alternative<Law, Papanastasiou>(
+              "papanastasiou",
+              {
+                  required("viscosity", &Papanastasiou::viscosity, viscosity, "viscosity above the yield stress"),
+                  required("yield_stress", &Papanastasiou::yield_stress, quantity(dim::pressure, not_negative),
+                           "stress below which there is hardly any flow"),
+                  required("regularization", &Papanastasiou::regularization, quantity(dim::time, not_negative),
+                           "exponent of the regularization, a time; larger is closer to Bingham's law"),
+              },
+              "Bingham's law made smooth by an exponential"),
+      });
 }
 
 Codec<Species> species_codec() {
@@ -156,7 +157,8 @@ Codec<SolverSettings> solver_codec() {
                 "eps: cells whose fractions add up to 1 - eps or more are liquid"),
       defaulted("tolerance", &SolverSettings::tolerance, tolerance, "relative residual of the linear solves"),
       defaulted("max_iterations", &SolverSettings::max_iterations, whole_number(1), "limit of a linear solve"),
-      defaulted("viscous_tolerance", &SolverSettings::viscous_tolerance, tolerance, "accuracy of the viscous iteration"),
+      defaulted("viscous_tolerance", &SolverSettings::viscous_tolerance, tolerance,
+                "accuracy of the viscous iteration"),
       defaulted("viscous_iteration", &SolverSettings::viscous_iteration, iteration, "method of the viscous iteration"),
       defaulted("viscous_max_iterations", &SolverSettings::viscous_max_iterations, whole_number(1),
                 "limit of the viscous iteration"),

@@ -16,7 +16,8 @@
 
 namespace quicksand {
 
-/// How cell widths change along a segment of an axis: all equal, or in geometric progression from the neighbour's width.
+/// How cell widths change along a segment of an axis: all equal, or in geometric progression from the neighbour's
+/// width.
 enum class Stretch { uniform, smooth };
 
 /// Part of an axis.
@@ -87,7 +88,8 @@ struct CaseConfig {
 CaseConfig read_case(const std::string& file, const std::vector<std::string>& settings = {});
 
 /// As read_case(), from text; `source` names it in messages.
-CaseConfig parse_case(const std::string& text, const std::string& source, const std::vector<std::string>& settings = {});
+CaseConfig parse_case(const std::string& text, const std::string& source,
+                      const std::vector<std::string>& settings = {});
 
 /// The case as YAML with every default filled in; reads back to the same case.
 std::string to_yaml(const CaseConfig& config);

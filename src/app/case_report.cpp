@@ -128,7 +128,8 @@ std::vector<std::string> warnings(const CaseConfig& config) {
   std::vector<std::string> found;
   const InitialState<Dim> state = fill_cells<Dim>(config);
   for (std::size_t i = 0; i < config.initial.size(); ++i) {
-    if (state.volumes[i] <= 0) found.push_back("initial[" + std::to_string(i) + "]: the shape fills nothing of the grid");
+    if (state.volumes[i] <= 0)
+      found.push_back("initial[" + std::to_string(i) + "]: the shape fills nothing of the grid");
   }
   for (const Species& species : config.species) {
     const bool used = std::any_of(config.initial.begin(), config.initial.end(),
@@ -142,7 +143,8 @@ std::vector<std::string> warnings(const CaseConfig& config) {
       if (!is_open(sides.at(d, s))) continue;
       const std::string name = std::string(1, axes[d]) + (s == 0 ? "_min" : "_max");
       if (liquid_near(state, d, s)) {
-        found.push_back("liquid begins less than " + std::to_string(least_air_cells) + " cells from the open side " + name);
+        found.push_back("liquid begins less than " + std::to_string(least_air_cells) + " cells from the open side " +
+                        name);
       }
       if (sides.at(d, s).pressure != config.ambient_pressure) {
         found.push_back("the pressure outside the open side " + name + ", " + shortest(sides.at(d, s).pressure) +

@@ -32,11 +32,16 @@ struct CommandName {
 };
 
 constexpr CommandName commands[] = {
-    {"run", Command::run, "a case file"},          {"check", Command::check, "a case file"},
-    {"show", Command::show, "a case file"},        {"schema", Command::schema, nullptr},
-    {"info", Command::info, "a result folder or field file"}, {"help", Command::help, nullptr},
-    {"--help", Command::help, nullptr},            {"-h", Command::help, nullptr},
-    {"version", Command::version, nullptr},        {"--version", Command::version, nullptr},
+    {"run", Command::run, "a case file"},
+    {"check", Command::check, "a case file"},
+    {"show", Command::show, "a case file"},
+    {"schema", Command::schema, nullptr},
+    {"info", Command::info, "a result folder or field file"},
+    {"help", Command::help, nullptr},
+    {"--help", Command::help, nullptr},
+    {"-h", Command::help, nullptr},
+    {"version", Command::version, nullptr},
+    {"--version", Command::version, nullptr},
 };
 
 const CommandName& find_command(const std::string& word) {
@@ -52,7 +57,8 @@ int parse_threads(const std::string& text) {
   int threads = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), threads);
   if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || threads < 1 || threads > most_threads) {
-    throw InputError("--threads must be a whole number from 1 to " + std::to_string(most_threads) + ", not '" + text + "'");
+    throw InputError("--threads must be a whole number from 1 to " + std::to_string(most_threads) + ", not '" + text +
+                     "'");
   }
   return threads;
 }
@@ -156,7 +162,8 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     } else if (command.operand == nullptr) {
       throw InputError(std::string("'") + command.name + "' takes no argument, but got '" + argument + "'");
     } else if (!line.path.empty()) {
-      throw InputError(std::string("'") + command.name + "' takes one path, but got '" + line.path + "' and '" + argument + "'");
+      throw InputError(std::string("'") + command.name + "' takes one path, but got '" + line.path + "' and '" +
+                       argument + "'");
     } else {
       line.path = argument;
     }

@@ -67,7 +67,8 @@ std::vector<double> widths_of(const std::vector<Span>& spans, std::size_t i) {
   const bool before = i > 0 && !spans[i - 1].smooth;
   const bool after = i + 1 < spans.size() && !spans[i + 1].smooth;
   if (before == after) {
-    throw InputError(name + " is smooth and needs exactly one uniform segment beside it, whose width it continues, not " +
+    throw InputError(name +
+                     " is smooth and needs exactly one uniform segment beside it, whose width it continues, not " +
                      (before ? "two" : "none"));
   }
   const double first = spans[before ? i - 1 : i + 1].uniform_width();

@@ -39,7 +39,8 @@ void prepare_output_folder(const std::string& folder, bool overwrite) {
       throw FileError("output folder " + folder + ": a file has this name");
     }
     if (fs::exists(folder) && !fs::is_empty(folder) && !overwrite) {
-      throw InputError("output folder " + folder + " is not empty: choose another with --output, or replace the results " +
+      throw InputError("output folder " + folder +
+                       " is not empty: choose another with --output, or replace the results " +
                        "in it with --overwrite");
     }
     fs::create_directories(folder);

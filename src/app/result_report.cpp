@@ -67,7 +67,8 @@ std::string field_file_report(const fs::path& file) {
   }
   for (const SnapshotField& field : snapshot.fields) {
     const auto [least, most] = std::minmax_element(field.values.begin(), field.values.end());
-    out << "field     " << field.name << ": " << field.components << (field.components == 1 ? " component" : " components");
+    out << "field     " << field.name << ": " << field.components
+        << (field.components == 1 ? " component" : " components");
     if (least != field.values.end()) out << ", values from " << shortest(*least) << " to " << shortest(*most);
     out << "\n";
   }

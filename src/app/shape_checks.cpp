@@ -130,11 +130,9 @@ bool check_shape(const CaseConfig& config, const Shape& shape, const std::string
 
 void check_initial(const CaseConfig& config, Reading& reading) {
   std::vector<std::string> names;
-  bool names_known = !config.species.empty();
-  for (std::size_t i = 0; i < config.species.size(); ++i) {
-    names.push_back(config.species[i].name);
-    if (config.species[i].name.empty()) names_known = false;
-  }
+  for (const Species& species : config.species) names.push_back(species.name);
+  // A species whose name could not be read may be any.
+  const bool names_known = !names.empty() && std::find(names.begin(), names.end(), "") == names.end();
   const Geometry geometry = geometry_of(config.grid);
   const bool grid_known = reading.clean("grid") && !config.grid.x.empty() && !config.grid.z.empty();
   std::vector<std::size_t> usable;
@@ -142,8 +140,8 @@ void check_initial(const CaseConfig& config, Reading& reading) {
     const InitialFill& fill = config.initial[i];
     const std::string path = child_path("initial", i);
     if (names_known && !fill.fill.empty() && std::find(names.begin(), names.end(), fill.fill) == names.end()) {
-      reading.problem(path + ".fill",
-                      in_quotes(fill.fill) + " is not a species; they are " + join(names) + suggestion(fill.fill, names));
+      reading.problem(path + ".fill", in_quotes(fill.fill) + " is not a species; they are " + join(names) +
+                                          suggestion(fill.fill, names));
     }
     if (geometry == Geometry::axisymmetric && reading.clean(path + ".velocity") && fill.velocity[0] != 0) {
       reading.problem(path + ".velocity", "must point along z in axisymmetric cases");

@@ -6,8 +6,8 @@
 
 namespace quicksand {
 
-/// Notes fills of unknown species, shapes that are degenerate, reach beyond the grid or overlap, and velocities that the
-/// geometry forbids.
+/// Notes fills of unknown species, shapes that are degenerate, reach beyond the grid or overlap, and velocities that
+/// the geometry forbids.
 void check_initial(const CaseConfig& config, Reading& reading);
 
 }  // namespace quicksand

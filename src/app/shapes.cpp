@@ -25,12 +25,28 @@ double radial_length(double low, double high, Geometry geometry) {
 /// Height of a wave's surface at the horizontal position x (or r).
 double surface(const WaveShape& wave, double x, Geometry geometry) {
   const double kx = wave.wavenumber * x;
-  return wave.level + wave.amplitude * (geometry == Geometry::axisymmetric ? std::cyl_bessel_j(0, std::abs(kx)) : std::cos(kx));
+  return wave.level +
+         wave.amplitude * (geometry == Geometry::axisymmetric ? std::cyl_bessel_j(0, std::abs(kx)) : std::cos(kx));
 }
 
 /// Weighted measure of the box.
 double measure(const Extent& box, Geometry geometry) {
   return radial_length(box.low[0], box.high[0], geometry) * (box.high[1] - box.low[1]) * (box.high[2] - box.low[2]);
+}
+
+/// Distance of the origin to the farthest corner of a box.
+double farthest_corner(const Extent& box) {
+  const auto far = [&](int d) { return std::max(std::abs(box.low[d]), std::abs(box.high[d])); };
+  return std::hypot(far(0), far(1), far(2));
+}
+
+/// Whether a box and the bounds of a shape share no volume, in the axes that exist.
+bool apart(const Extent& box, const Extent& shape, Geometry geometry) {
+  for (int d = 0; d < 3; ++d) {
+    if (d == 1 && geometry != Geometry::cartesian) continue;
+    if (box.high[d] <= shape.low[d] || box.low[d] >= shape.high[d]) return true;
+  }
+  return false;
 }
 
 /// The box's rectangle in (x, z).
@@ -72,6 +88,7 @@ double filled(const SphereShape& shape, const Extent& box, Geometry geometry) {
   }
   if (geometry == Geometry::axisymmetric) return ball_per_radian(shape.radius, section(centred));
   if (geometry == Geometry::planar) return disc_area(shape.radius, section(centred));
+  if (farthest_corner(centred) <= shape.radius) return measure(box, geometry);
   const double low = std::max(centred.low[2], -shape.radius);
   const double high = std::min(centred.high[2], shape.radius);
   const Rectangle base{centred.low[0], centred.high[0], centred.low[1], centred.high[1]};
@@ -234,6 +251,7 @@ Extent bounds_of(const WaveShape& s, Geometry) {
 }  // namespace
 
 double fraction(const Shape& shape, const Extent& box, Geometry geometry) {
+  if (apart(box, bounds(shape, geometry), geometry)) return 0;
   const double part = std::visit([&](const auto& s) { return filled(s, box, geometry); }, shape);
   const double result = part / measure(box, geometry);
   // Rounding must not leave 1 - 1e-16 in a full cell nor 1e-16 in an empty one.
@@ -257,7 +275,9 @@ bool contains(const Shape& shape, const Vec<3>& point, Geometry geometry) {
 }
 
 Extent bounds(const Shape& shape, Geometry geometry) {
-  return std::visit([&](const auto& s) { return bounds_of(s, geometry); }, shape);
+  Extent extent = std::visit([&](const auto& s) { return bounds_of(s, geometry); }, shape);
+  if (geometry == Geometry::axisymmetric) extent.low[0] = std::max(extent.low[0], 0.0);
+  return extent;
 }
 
 bool overlap(const Shape& a, const Shape& b, const Extent& domain, Geometry geometry) {

@@ -2,9 +2,9 @@
 /// \file
 /// Shapes that are filled with a species at the start.
 ///
-/// Points are (x, y, z), with z up; in two dimensions y is ignored, and in axisymmetric cases x is the radius. In planar
-/// cases a cylinder is the rectangle |x - x_centre| <= radius and a sphere is a disc; in axisymmetric cases both must
-/// be centred on the axis, and a box or polygon is the body of revolution of its cross-section.
+/// Points are (x, y, z), with z up; in two dimensions y is ignored, and in axisymmetric cases x is the radius. In
+/// planar cases a cylinder is the rectangle |x - x_centre| <= radius and a sphere is a disc; in axisymmetric cases both
+/// must be centred on the axis, and a box or polygon is the body of revolution of its cross-section.
 #include <optional>
 #include <string>
 #include <variant>
@@ -55,7 +55,8 @@ struct PolygonShape {
   std::vector<PolygonPoint> points;
 };
 
-/// Below or above the surface z = level + amplitude cos(wavenumber x), or amplitude J0(wavenumber r) in axisymmetric cases.
+/// Below or above the surface z = level + amplitude cos(wavenumber x), or amplitude J0(wavenumber r) in axisymmetric
+/// cases.
 struct WaveShape {
   std::optional<double> bottom;  ///< filled from here up to the surface ...
   std::optional<double> top;     ///< ... or from the surface up to here; one of the two is present
@@ -64,8 +65,7 @@ struct WaveShape {
   double wavenumber = 0;
 };
 
-using Shape =
-    std::variant<BoxShape, LayerShape, CylinderShape, SphereShape, HalfSpaceShape, PolygonShape, WaveShape>;
+using Shape = std::variant<BoxShape, LayerShape, CylinderShape, SphereShape, HalfSpaceShape, PolygonShape, WaveShape>;
 
 /// An axis-aligned box of space, such as a cell or the domain; y is [0, 1] in two dimensions.
 struct Extent {

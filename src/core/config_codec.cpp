@@ -196,9 +196,8 @@ Codec<std::string> identifier() {
     std::string name;
     read(reading, node, name);
     if (name.empty()) return;
-    const bool fits = std::all_of(name.begin(), name.end(), [](char ch) {
-      return std::isalnum(static_cast<unsigned char>(ch)) || ch == '_';
-    });
+    const bool fits = std::all_of(name.begin(), name.end(),
+                                  [](char ch) { return std::isalnum(static_cast<unsigned char>(ch)) || ch == '_'; });
     if (!fits || std::isdigit(static_cast<unsigned char>(name.front()))) {
       reading.problem(node, "must consist of letters, digits and _ and not begin with a digit, not " + in_quotes(name));
     } else {
@@ -218,8 +217,8 @@ Codec<Vec<3>> vector_of(const Dimension& dimension) {
         (length == 3 && node.children.size() != 3)) {
       const std::string found =
           node.kind == Kind::list ? std::to_string(node.children.size()) + " numbers" : detail::kind_name(node);
-      reading.problem(node, std::string("must be a vector [x, y, z]") + (length == 3 ? "" : " or [x, z]") + ", not " +
-                                found);
+      reading.problem(node,
+                      std::string("must be a vector [x, y, z]") + (length == 3 ? "" : " or [x, z]") + ", not " + found);
       return;
     }
     Vec<3> value;

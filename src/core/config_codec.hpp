@@ -19,7 +19,8 @@ namespace quicksand {
 /// What reading needs besides the values, and the problems found so far.
 class Reading {
  public:
-  explicit Reading(ConfigDocument document) : root_(std::move(document.root)), problems_(std::move(document.problems)) {}
+  explicit Reading(ConfigDocument document)
+      : root_(std::move(document.root)), problems_(std::move(document.problems)) {}
 
   UnitSystem units = UnitSystem::si;
   int vector_length = 0;  ///< 2: vectors may be [x, z]; 3: [x, y, z]; 0: either
@@ -160,7 +161,9 @@ void describe_members(ConfigNode& schema, const std::vector<MemberOf<S>>& member
 /// A member whose key must be present.
 template <class S, class T>
 detail::MemberOf<S> required(std::string name, T S::*member, Codec<T> codec, std::string help) {
-  return {std::move(name), std::move(help), true,
+  return {std::move(name),
+          std::move(help),
+          true,
           [member, read = codec.read](Reading& r, const ConfigNode& n, S& s) { read(r, n, s.*member); },
           [member, write = codec.write](const S& s) { return std::optional<ConfigNode>(write(s.*member)); },
           std::move(codec.schema)};
@@ -177,7 +180,9 @@ detail::MemberOf<S> defaulted(std::string name, T S::*member, Codec<T> codec, st
 /// A member that may be absent, without a default.
 template <class S, class T>
 detail::MemberOf<S> maybe(std::string name, std::optional<T> S::*member, Codec<T> codec, std::string help) {
-  return {std::move(name), std::move(help), false,
+  return {std::move(name),
+          std::move(help),
+          false,
           [member, read = codec.read](Reading& r, const ConfigNode& n, S& s) { read(r, n, (s.*member).emplace()); },
           [member, write = codec.write](const S& s) {
             return s.*member ? std::optional<ConfigNode>(write(*(s.*member))) : std::nullopt;

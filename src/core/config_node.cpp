@@ -113,9 +113,7 @@ const ConfigNode* ConfigNode::find(std::string_view name) const {
   return found == children.end() ? nullptr : &*found;
 }
 
-ConfigNode* ConfigNode::find(std::string_view name) {
-  return const_cast<ConfigNode*>(std::as_const(*this).find(name));
-}
+ConfigNode* ConfigNode::find(std::string_view name) { return const_cast<ConfigNode*>(std::as_const(*this).find(name)); }
 
 ConfigNode& ConfigNode::add(std::string name, ConfigNode value) {
   kind = Kind::map;

@@ -80,13 +80,17 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   void open(ConfigNode value) {
-    if (expects_key()) throw InputError(to_string(value.place) + ": a key must be a single word");
+    if (expects_key())
+      throw InputError(to_string(value.place) +
+                       ": not valid YAML: a key must be a single word (is a bracket left open?)");
     if (!open_.empty()) {
       Open& parent = open_.back();
       if (parent.node.kind == ConfigNode::Kind::map) {
         value.key = parent.key->text;
         value.key_place = parent.key->place;
         value.path = child_path(parent.node.path, value.key);
+        // The parser places a missing value where the next thing begins.
+        if (value.kind == ConfigNode::Kind::none) value.place = value.key_place;
       } else {
         value.path = child_path(parent.node.path, parent.node.children.size());
       }

@@ -42,7 +42,7 @@ constexpr Symbol symbols[] = {
     {"MPa", {dimension::pressure, 1e6}},
     {"bar", {dimension::pressure, 1e5}},
     {"atm", {dimension::pressure, 101325}},
-    {"psi", {dimension::pressure, pound * standard_gravity / (inch * inch)}},
+    {"psi", {dimension::pressure, pound* standard_gravity / (inch * inch)}},
     {"ftH2O", {dimension::pressure, 12 * inch * 1000 * standard_gravity}},  // conventional water, 1000 kg/m^3
     {"P", {dimension::viscosity, 0.1}},
     {"cP", {dimension::viscosity, 1e-3}},
@@ -86,7 +86,8 @@ int take_exponent(std::string_view& text) {
   if (text.empty() || text.front() != '^') return 1;
   int exponent = 0;
   const auto result = std::from_chars(text.data() + 1, text.data() + text.size(), exponent);
-  if (result.ec != std::errc{} || std::abs(exponent) > 9) throw InputError("'^' must be followed by a small whole number");
+  if (result.ec != std::errc{} || std::abs(exponent) > 9)
+    throw InputError("'^' must be followed by a small whole number");
   text.remove_prefix(static_cast<std::size_t>(result.ptr - text.data()));
   return exponent;
 }

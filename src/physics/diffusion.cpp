@@ -19,8 +19,9 @@ constexpr int max_linear_iterations = 400;
 constexpr int max_halvings = 12;
 constexpr int anderson_depth = 5;
 
+/// Number of active elements that a cell is a corner of.
 template <int Dim>
-int flat_corner_cells(const NodeMask& active, const Layout<Dim>& layout, Cell c) {
+int touching(const NodeMask& active, const Layout<Dim>& layout, Cell c) {
   int touched = 0;
   for (int k = 0; k < corner_count<Dim>; ++k) {
     Node n = low_node(c);
@@ -37,7 +38,7 @@ template <int Dim>
 void mark_participants(const Domain<Dim>& domain, const CellField& rho, DiffusionWork<Dim>& work) {
   const Grid<Dim>& grid = domain.grid;
   for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
-    work.mass[c] = flat_corner_cells(work.active, domain.layout(), c) > 0 ? rho[c] * grid.volume(c) : 0.0;
+    work.mass[c] = touching(work.elements.active, domain.layout(), c) > 0 ? rho[c] * grid.volume(c) : 0.0;
   });
   work.matrix.set_box(bounding_box<Cell>(domain.layout(), grid.cells(), [&](Cell c) { return work.mass[c] > 0; }));
 }
@@ -112,12 +113,14 @@ bool iterate_newton(const Problem<Dim>& p, int max_iterations, CellVectors<Dim>&
     double length = 1;
     double trial_value = 0;
     int halvings = 0;
+    if(getenv("DBG")) fprintf(stderr,"newton %d norm %.3e target %.3e value %.6e descent %.3e lin %d conv %d res %.2e\n",k,norm,p.target,value,descent,linear.iterations,linear.converged,linear.residual);
     for (;; length *= 0.5, ++halvings) {
       if (halvings > max_halvings) return false;
       add_scaled(p, u, -length, work.update, work.trial);
       trial_value = evaluate_functional(p.domain, p.u_hat, work.trial, p.dt, work, work.trial_gradient);
       if (trial_value <= value - 1e-4 * length * descent + noise) break;
     }
+    update_plastic_stress(p.domain, u, work.update, work);
     std::swap(u, work.trial);
     std::swap(work.gradient, work.trial_gradient);
     value = trial_value;
@@ -162,6 +165,7 @@ bool iterate_picard(const Problem<Dim>& p, int max_iterations, bool accelerate, 
   for (int k = 0;; ++k) {
     evaluate_functional(p.domain, p.u_hat, u, p.dt, work, work.gradient);
     const double norm = gradient_norm(p.domain, work, work.gradient);
+    if(getenv("DBG")) fprintf(stderr,"picard %d norm %.3e target %.3e\n",k,norm,p.target);
     if (norm <= p.target) return true;
     if (k == max_iterations || !std::isfinite(norm)) return false;
     assemble_matrix(p.domain, u, p.dt, Linearisation::secant, work);
@@ -181,63 +185,29 @@ bool iterate_picard(const Problem<Dim>& p, int max_iterations, bool accelerate, 
 }  // namespace
 
 template <int Dim>
-DiffusionWork<Dim>::DiffusionWork(const Domain<Dim>& domain)
-    : mesh(domain),
-      active(domain.layout()),
-      rheology(domain.layout()),
+DiffusionWork<Dim>::DiffusionWork(const Domain<Dim>& domain, const std::vector<Species>& species)
+    : elements(domain),
       potential(domain.layout()),
       matrix(domain.layout()),
       mass(domain.layout()),
       gradient(domain.layout()),
       trial_gradient(domain.layout()),
       update(domain.layout()),
-      trial(domain.layout()) {}
-
-double concentration_factor(double kappa, double c) {
-  return std::abs(kappa) < 1e-12 ? c : std::expm1(kappa * c) / std::expm1(kappa);
-}
-
-template <int Dim>
-bool mix_rheology(const Domain<Dim>& domain, const std::vector<Species>& species, const Fractions& phi,
-                  const CellField& total, DiffusionWork<Dim>& work) {
-  std::vector<Rheology> pure;
-  for (const Species& s : species) pure.push_back(rheology(s.law));
-  const auto stiff = [](const Rheology& r) { return r.viscosity > 0 || r.yield_stress * r.regularization > 0; };
-  work.active.fill(0);
-  if (std::none_of(pure.begin(), pure.end(), stiff)) return false;
-
-  for_each_indexed<Node>(domain.layout(), domain.grid.nodes(), [&](Node n, const Index<Dim>& i) {
-    const DualElement<Dim> e = work.mesh.element(n, i);
-    double whole = 0;
-    bool empty = false;
-    for (const Cell c : e.corner) {
-      whole += total[c];
-      empty = empty || total[c] < empty_fraction;
-    }
-    if (empty) return;
-    Rheology mixed;
-    double alpha_sum = 0;
-    for (std::size_t s = 0; s < species.size(); ++s) {
-      double part = 0;
-      for (const Cell c : e.corner) part += phi[s][c];
-      const double composition = std::clamp(part / whole, 0.0, 1.0);
-      const Concentration& k = species[s].concentration;
-      const double yield = pure[s].yield_stress * concentration_factor(k.yield_exponent, composition);
-      mixed.viscosity += pure[s].viscosity * concentration_factor(k.viscosity_exponent, composition);
-      mixed.yield_stress += yield;
-      alpha_sum += yield * pure[s].regularization;
-    }
-    mixed.regularization = mixed.yield_stress > 0 ? alpha_sum / mixed.yield_stress : 0.0;
-    work.rheology[n] = mixed;
-    work.active[n] = stiff(mixed) ? 1 : 0;
-  });
-  return sum<Node>(domain.layout(), domain.grid.nodes(), [&](Node n) { return work.active[n] ? 1.0 : 0.0; }) > 0;
+      trial(domain.layout()) {
+  const bool plastic = std::any_of(species.begin(), species.end(),
+                                   [](const Species& s) { return rheology(s.law).yield_stress > 0; });
+  if (plastic) stress = Field<Node, PointStresses<Dim>>(domain.layout());
 }
 
 template <int Dim>
 DiffusionReport diffuse(const Domain<Dim>& domain, const CellField& rho, const CellVectors<Dim>& u_hat, double dt,
                         const DiffusionOptions& options, DiffusionWork<Dim>& work, CellVectors<Dim>& u) {
   mark_participants(domain, rho, work);
+  for (int d = 0; d < Dim; ++d) {
+    for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) {
+      if (!(work.mass[c] > 0)) u[d][c] = u_hat[d][c];
+    });
+  }
   DiffusionReport report;
   if (work.matrix.box().empty()) return report;
   Problem<Dim> problem{domain, u_hat, dt, work, 0};
@@ -268,8 +238,6 @@ DiffusionReport diffuse(const Domain<Dim>& domain, const CellField& rho, const C
 
 #define QUICKSAND_INSTANTIATE(Dim)                                                                                    \
   template struct DiffusionWork<Dim>;                                                                                 \
-  template bool mix_rheology(const Domain<Dim>&, const std::vector<Species>&, const Fractions&, const CellField&,     \
-                             DiffusionWork<Dim>&);                                                                    \
   template DiffusionReport diffuse(const Domain<Dim>&, const CellField&, const CellVectors<Dim>&, double,             \
                                    const DiffusionOptions&, DiffusionWork<Dim>&, CellVectors<Dim>&);
 QUICKSAND_INSTANTIATE(2)

@@ -74,6 +74,12 @@ struct DualElement {
 
   /// Weight of mid-edge point q: its share of the element's volume.
   double weight(int q) const { return measure / point_count<Dim> * radius_at(q); }
+  /// Sum of the points' weights.
+  double volume() const {
+    double v = 0;
+    for (int q = 0; q < point_count<Dim>; ++q) v += weight(q);
+    return v;
+  }
   double radius_at(int q) const {
     const double t = mid_edge_shapes<Dim>.position[q][0];
     return (1 - t) * radius[0] + t * radius[1];
@@ -147,6 +153,16 @@ struct StrainRate {
   double scalar;
 };
 
+/// 1/2 A:B of two symmetric tensors, for which s^2 = inner(Delta, Delta).
+template <int Dim>
+double inner(const StrainRate<Dim>& a, const StrainRate<Dim>& b) {
+  double total = a.third * b.third;
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = 0; j < Dim; ++j) total += a.delta[i][j] * b.delta[i][j];
+  }
+  return 0.5 * total;
+}
+
 /// Strain rate at mid-edge point q of an element from its corner velocities (boundary factors applied). On the axis
 /// itself the hoop strain is not defined; points there have no weight and must be left out.
 template <int Dim>
@@ -165,18 +181,13 @@ StrainRate<Dim> strain_rate(const DualElement<Dim>& e, int q, const double (&u)[
   double divergence = hoop;
   for (int d = 0; d < Dim; ++d) divergence += gradient[d][d];
   StrainRate<Dim> s{};
-  double twice_square = 0;
   for (int a = 0; a < Dim; ++a) {
     for (int b = 0; b < Dim; ++b) {
       s.delta[a][b] = gradient[a][b] + gradient[b][a] - (a == b ? 2 * divergence / 3 : 0.0);
-      twice_square += s.delta[a][b] * s.delta[a][b];
     }
   }
-  if constexpr (Dim == 2) {
-    s.third = 2 * hoop - 2 * divergence / 3;
-    twice_square += s.third * s.third;
-  }
-  s.scalar = std::sqrt(0.5 * twice_square);
+  if constexpr (Dim == 2) s.third = 2 * hoop - 2 * divergence / 3;
+  s.scalar = std::sqrt(inner(s, s));
   return s;
 }
 

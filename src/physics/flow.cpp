@@ -33,6 +33,15 @@ void add_uniform(const Grid<Dim>& grid, const CellVectors<Dim>& from, double fac
   }
 }
 
+/// to = from + factor * change
+template <int Dim>
+void add_fields(const Grid<Dim>& grid, const CellVectors<Dim>& from, double factor, const CellVectors<Dim>& change,
+                CellVectors<Dim>& to) {
+  for (int d = 0; d < Dim; ++d) {
+    for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c) { to[d][c] = from[d][c] + factor * change[d][c]; });
+  }
+}
+
 /// to = factor * (a - b)
 template <int Dim>
 void scaled_difference(const Grid<Dim>& grid, double factor, const CellVectors<Dim>& a, const CellVectors<Dim>& b,
@@ -83,7 +92,7 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       convection_(domain_.layout(), parameters_.species.size()),
       mac_(domain_.layout()),
       redistribution_(domain_, parameters_.species.size()),
-      diffusion_(domain_),
+      diffusion_(domain_, parameters_.species),
       projection_(domain_.layout()) {
   state_.pressure.fill(parameters_.ambient_pressure);
 }
@@ -103,7 +112,7 @@ void Flow<Dim>::refresh() {
 template <int Dim>
 void Flow<Dim>::initialize() {
   refresh();
-  mix_rheology(domain_, parameters_.species, state_.phi, total_, diffusion_);
+  mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
 }
 
 /// One step of the report's algorithm:
@@ -154,8 +163,9 @@ StepReport Flow<Dim>::advance(double dt) {
   add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, -dt, u_hat_);
   CellVectors<Dim>& u_star = next_.u;
   u_star = u_hat_;
-  if (mix_rheology(domain_, par.species, next_.phi, next_total_, diffusion_)) {
-    u_star = u_bar_;
+  if (mark_stress_elements(domain_, par.species, next_.phi, next_total_, diffusion_.elements)) {
+    // The stress of the last step is the best guess of this one's.
+    add_fields(grid, u_bar_, dt, state_.acceleration, u_star);
     report.diffusion = diffuse(domain_, next_rho_, u_hat_, dt, par.diffusion, diffusion_, u_star);
     if (!report.diffusion.converged) throw NumericalError("viscoplastic diffusion did not converge");
   }

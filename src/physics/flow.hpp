@@ -62,7 +62,7 @@ class Flow {
   const CellField& density() const { return rho_; }
   const CellMask& liquid() const { return liquid_; }
   /// Dual mesh and the rheology of its elements in the current state.
-  const DiffusionWork<Dim>& diffusion() const { return diffusion_; }
+  const StressElements<Dim>& stress_elements() const { return diffusion_.elements; }
 
   /// Makes the flow ready to advance after state() was set from outside.
   void initialize();

@@ -37,7 +37,8 @@ Rheology rheology(const Law& law);
 /// f, its derivative and the dissipation potential at one strain rate.
 struct LawValue {
   double f;          ///< effective viscosity
-  double f_prime_s;  ///< f'(s) / s, which is finite at s = 0 only after multiplication with strains of size s
+  double plastic;    ///< f less the viscosity mu: the part that the yield stress makes
+  double slope;      ///< f'(s) <= 0
   double potential;  ///< integral of f s ds from 0 to s
 };
 
@@ -49,26 +50,23 @@ inline double effective_viscosity(const Rheology& m, double s) {
   return m.viscosity + m.yield_stress * m.regularization * ratio;
 }
 
-/// Below this strain rate the stress is linear to round-off, and f' / s would overflow.
-inline constexpr double smallest_rate = 1e-100;
-
-/// All of f, f'/s and the potential; see LawValue.
+/// All of LawValue, to round-off for any s >= 0.
 inline LawValue evaluate(const Rheology& m, double s) {
   const double a = m.regularization;
   const double x = a * s;
   const double b = m.yield_stress * a;
   if (x < 1e-3) {
     // (1-e^-x)/x = 1 - x/2 + x^2/6 - x^3/24; derivative and integral term by term.
-    const double f = m.viscosity + b * (1 - x * (0.5 - x * (1.0 / 6 - x / 24)));
+    const double plastic = b * (1 - x * (0.5 - x * (1.0 / 6 - x / 24)));
     const double slope = b * a * (-0.5 + x * (1.0 / 3 - x / 8));
     const double potential = 0.5 * m.viscosity * s * s + b * s * s * (0.5 - x * (1.0 / 6 - x / 24));
-    return {f, s > smallest_rate ? slope / s : 0.0, potential};
+    return {m.viscosity + plastic, plastic, slope, potential};
   }
   const double decayed = -std::expm1(-x);  // 1 - e^-x
-  const double f = m.viscosity + m.yield_stress * decayed / s;
+  const double plastic = m.yield_stress * decayed / s;
   const double slope = m.yield_stress * (a * (1 - decayed) - decayed / s) / s;
   const double potential = 0.5 * m.viscosity * s * s + m.yield_stress * (s - decayed / a);
-  return {f, slope / s, potential};
+  return {m.viscosity + plastic, plastic, slope, potential};
 }
 
 }  // namespace quicksand

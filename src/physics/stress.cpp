@@ -5,17 +5,17 @@ namespace quicksand {
 template <int Dim>
 StressFields evaluate_stress(const Flow<Dim>& flow) {
   const Grid<Dim>& grid = flow.domain().grid;
-  const DiffusionWork<Dim>& work = flow.diffusion();
+  const StressElements<Dim>& elements = flow.stress_elements();
   StressFields fields{CellField(grid.layout()), CellField(grid.layout()), CellField(grid.layout())};
   CellField weights(grid.layout());
   for_each_coloured<Node>(grid.layout(), grid.nodes(), [&](Node n, const Index<Dim>& index) {
-    if (!work.active[n]) return;
-    const DualElement<Dim> e = work.mesh.element(n, index);
+    if (!elements.active[n]) return;
+    const DualElement<Dim> e = elements.mesh.element(n, index);
     double corner[corner_count<Dim>][Dim];
     gather(e, flow.state().u, corner);
     for (int q = 0; q < point_count<Dim>; ++q) {
       if (!(e.weight(q) > 0)) continue;
-      const Rheology& rheology = work.rheology[n];
+      const Rheology& rheology = elements.rheology[n];
       const double s = strain_rate(e, q, corner).scalar;
       const double f = effective_viscosity(rheology, s);
       for (int k = 0; k < corner_count<Dim>; ++k) {

@@ -25,17 +25,33 @@ struct PointShapes {
   }
 };
 
+/// The factor k for which f_p I + k sym(S Delta) is the derivative of the plastic stress f_p Delta with respect to Delta, given
+/// its present estimate S; reduced where S is so large that the matrix would lose its definiteness.
+template <int Dim>
+double plastic_coefficient(const LawValue& law, const StrainRate<Dim>& s, const StrainRate<Dim>& stress) {
+  const double largest = law.plastic * law.plastic / -law.slope;
+  const double size = std::sqrt(inner(stress, stress));
+  const double reduction = size > largest ? largest / size : 1.0;
+  return reduction * law.slope / (law.plastic * s.scalar);
+}
+
 /// Stiffness of one element, [corner a][corner b][component][component].
 template <int Dim>
 using ElementMatrix = double[corner_count<Dim>][corner_count<Dim>][Dim][Dim];
 
-/// Adds weight { f 1/2 Delta(v):Delta(w) + f'/s (1/2 Delta(u):Delta(v)) (1/2 Delta(u):Delta(w)) } for unit corner velocities v, w.
+/// Adds f 1/2 Delta(v):Delta(w) + k sym[(1/2 Delta(u):Delta(v)) (1/2 S:Delta(w))] for unit corner velocities v, w.
+/// \param stress  S
+/// \param k       coefficient of the second term, <= 0
 template <int Dim>
-void add_point(const PointShapes<Dim>& shapes, const StrainRate<Dim>& s, double weight_f, double weight_f_prime,
-               ElementMatrix<Dim>& K) {
+void add_point(const PointShapes<Dim>& shapes, const StrainRate<Dim>& s, const StrainRate<Dim>& stress, double f,
+               double k, ElementMatrix<Dim>& K) {
   double against[corner_count<Dim>][Dim];
-  for (int k = 0; k < corner_count<Dim>; ++k) {
-    for (int c = 0; c < Dim; ++c) against[k][c] = shapes.against(s, k, c);
+  double against_stress[corner_count<Dim>][Dim];
+  for (int n = 0; n < corner_count<Dim>; ++n) {
+    for (int c = 0; c < Dim; ++c) {
+      against[n][c] = shapes.against(s, n, c);
+      against_stress[n][c] = shapes.against(stress, n, c);
+    }
   }
   for (int a = 0; a < corner_count<Dim>; ++a) {
     const double(&ga)[Dim] = shapes.gradient[a];
@@ -50,7 +66,8 @@ void add_point(const PointShapes<Dim>& shapes, const StrainRate<Dim>& s, double 
           double strain = ga[j] * gb[i] - 2 * div_a * div_b / 3;
           if (i == j) strain += dot;
           if (i == 0 && j == 0) strain += 2 * shapes.hoop[a] * shapes.hoop[b];
-          K[a][b][i][j] += weight_f * strain + weight_f_prime * against[a][i] * against[b][j];
+          const double plastic = against[a][i] * against_stress[b][j] + against_stress[a][i] * against[b][j];
+          K[a][b][i][j] += f * strain + 0.5 * k * plastic;
         }
       }
     }
@@ -109,17 +126,17 @@ double evaluate_functional(const Domain<Dim>& domain, const CellVectors<Dim>& u_
   for (int d = 0; d < Dim; ++d) ++elements.hi[d];
   for_each_coloured<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
     work.potential[n] = 0;
-    if (!work.active[n]) return;
-    const DualElement<Dim> e = work.mesh.element(n, index);
+    if (!work.elements.active[n]) return;
+    const DualElement<Dim> e = work.elements.mesh.element(n, index);
     double corner[corner_count<Dim>][Dim];
     gather(e, u, corner);
     double force[corner_count<Dim>][Dim] = {};
     double potential = 0;
     for (int q = 0; q < point_count<Dim>; ++q) {
-      const double weight = dt * e.weight(q);
+      const double weight = dt * work.elements.share[n] * e.weight(q);
       if (!(weight > 0)) continue;
       const StrainRate<Dim> s = strain_rate(e, q, corner);
-      const LawValue law = evaluate(work.rheology[n], s.scalar);
+      const LawValue law = evaluate(work.elements.rheology[n], s.scalar);
       potential += weight * law.potential;
       const PointShapes<Dim> shapes(e, q);
       for (int k = 0; k < corner_count<Dim>; ++k) {
@@ -149,20 +166,71 @@ void assemble_matrix(const Domain<Dim>& domain, const CellVectors<Dim>& u, doubl
   Box<Dim> elements = matrix.box();
   for (int d = 0; d < Dim; ++d) ++elements.hi[d];
   for_each_coloured<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
-    if (!work.active[n]) return;
-    const DualElement<Dim> e = work.mesh.element(n, index);
+    if (!work.elements.active[n]) return;
+    const DualElement<Dim> e = work.elements.mesh.element(n, index);
     double corner[corner_count<Dim>][Dim];
     gather(e, u, corner);
     ElementMatrix<Dim> K = {};
     for (int q = 0; q < point_count<Dim>; ++q) {
-      const double weight = dt * e.weight(q);
+      const double weight = dt * work.elements.share[n] * e.weight(q);
       if (!(weight > 0)) continue;
       const StrainRate<Dim> s = strain_rate(e, q, corner);
-      const LawValue law = evaluate(work.rheology[n], s.scalar);
-      const double tangent = linearisation == Linearisation::tangent ? law.f_prime_s : 0.0;
-      add_point(PointShapes<Dim>(e, q), s, weight * law.f, weight * tangent, K);
+      const LawValue law = evaluate(work.elements.rheology[n], s.scalar);
+      double k = 0;
+      StrainRate<Dim> stress{};
+      if (linearisation == Linearisation::tangent && law.plastic > 0 && s.scalar > 0) {
+        stress = work.stress[n].at[q];
+        k = weight * plastic_coefficient(law, s, stress);
+      }
+      add_point(PointShapes<Dim>(e, q), s, stress, weight * law.f, k, K);
     }
     scatter(e, K, table, matrix);
+  });
+}
+
+template <int Dim>
+void update_plastic_stress(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellVectors<Dim>& update,
+                           DiffusionWork<Dim>& work) {
+  if (work.stress.size() == 0) return;
+  Box<Dim> elements = work.matrix.box();
+  for (int d = 0; d < Dim; ++d) ++elements.hi[d];
+  for_each_indexed<Node>(domain.layout(), elements, [&](Node n, const Index<Dim>& index) {
+    if (!work.elements.active[n]) return;
+    const DualElement<Dim> e = work.elements.mesh.element(n, index);
+    const Rheology& rheology = work.elements.rheology[n];
+    double corner[corner_count<Dim>][Dim];
+    double change[corner_count<Dim>][Dim];
+    gather(e, u, corner);
+    gather(e, update, change);
+    for (int q = 0; q < point_count<Dim>; ++q) {
+      StrainRate<Dim>& stress = work.stress[n].at[q];
+      if (!(e.weight(q) > 0)) continue;
+      const StrainRate<Dim> s = strain_rate(e, q, corner);
+      const StrainRate<Dim> ds = strain_rate(e, q, change);
+      const LawValue law = evaluate(rheology, s.scalar);
+      if (!(law.plastic > 0)) {
+        stress = {};
+        continue;
+      }
+      // S <- f_p (Delta + dDelta) + k S (Delta . dDelta), with dDelta that of -update.
+      const double k = s.scalar > 0 ? plastic_coefficient(law, s, stress) : 0.0;
+      const double turned = -k * inner(s, ds);
+      const auto combine = [&](double old, double strain, double d) {
+        return law.plastic * (strain - d) + turned * old;
+      };
+      stress.third = combine(stress.third, s.third, ds.third);
+      for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) stress.delta[i][j] = combine(stress.delta[i][j], s.delta[i][j], ds.delta[i][j]);
+      }
+      const double size = std::sqrt(inner(stress, stress));
+      if (size > rheology.yield_stress) {
+        const double scale = rheology.yield_stress / size;
+        stress.third *= scale;
+        for (auto& row : stress.delta) {
+          for (double& t : row) t *= scale;
+        }
+      }
+    }
   });
 }
 
@@ -170,7 +238,9 @@ void assemble_matrix(const Domain<Dim>& domain, const CellVectors<Dim>& u, doubl
   template double evaluate_functional(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&, double,   \
                                       DiffusionWork<Dim>&, CellVectors<Dim>&);                                        \
   template void assemble_matrix(const Domain<Dim>&, const CellVectors<Dim>&, double, Linearisation,                   \
-                                DiffusionWork<Dim>&);
+                                DiffusionWork<Dim>&);                                                                 \
+  template void update_plastic_stress(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&,           \
+                                      DiffusionWork<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

@@ -11,14 +11,6 @@ namespace quicksand {
 
 namespace {
 
-template <int Dim, class At>
-double row_sum(const StencilMatrix<Dim, At>& matrix, At p) {
-  double total = matrix.diagonal[p];
-  for (std::size_t e = 0; e < matrix.lower.size(); ++e)
-    total += matrix.lower[e][p] + matrix.lower[e][p + matrix.steps[e]];
-  return total;
-}
-
 /// Whether the constants over the coupled rows are in the null space: all-Neumann problems.
 template <int Dim, class At>
 bool is_singular(const StencilMatrix<Dim, At>& matrix) {
@@ -27,7 +19,7 @@ bool is_singular(const StencilMatrix<Dim, At>& matrix) {
     return sum<At>(matrix.layout, matrix.box, [&](At p) { return matrix.uncoupled(p) ? 0.0 : f(p); });
   };
   const double diagonal = coupled_sum([&](At p) { return matrix.diagonal[p]; });
-  return diagonal > 0 && coupled_sum([&](At p) { return std::abs(row_sum(matrix, p)); }) <= round_off * diagonal;
+  return diagonal > 0 && coupled_sum([&](At p) { return std::abs(matrix.row_sum(p)); }) <= round_off * diagonal;
 }
 
 template <int Dim, class At>

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <limits>
 #include <optional>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "core/errors.hpp"
@@ -15,7 +15,17 @@
 namespace quicksand {
 
 namespace {
-double par(const char* n, double dflt) { const char* s = std::getenv(n); return s ? atof(s) : dflt; }
+
+/// Cells with room for less than this fraction start in the set: they fill up at once when volume passes through them.
+constexpr double room_of_full_cells = 1e-3;
+/// Reduction of the residual while the set changes. Looser values drop cells wrongly, tighter ones cost cycles.
+constexpr double inexact = 1e-2;
+/// Residual within the set, in terms of the tolerance: leaves some for what the projection adds.
+constexpr double residual_share = 0.3;
+/// After so many outer iterations every step is followed by Gauss-Seidel sweeps, which makes convergence certain.
+constexpr int patience = 20;
+/// Sums of a closed system below this fraction of their terms are round-off.
+constexpr double round_off = 1e-13;
 
 enum Membership : unsigned char { outside, inside, reached };
 
@@ -24,194 +34,302 @@ class ObstacleSolver {
  public:
   ObstacleSolver(const StencilMatrix<Dim, Cell>& matrix, const CellField& b, const CellField& volume, CellField& H,
                  const ObstacleOptions& options)
-      : A_(matrix), layout_(matrix.layout), volume_(volume), H_(H), options_(options), b_(b) {}
+      : matrix_(matrix),
+        layout_(matrix.layout),
+        volume_(volume),
+        H_(H),
+        max_iterations_(options.max_iterations),
+        tolerance_(options.tolerance / 2),
+        b_(b) {}
 
   ObstacleReport solve() {
-    prepare();
-    if (report_.trivial) return report_;
-    start_set();
-    bool dbg = par("DBG", 0) > 0;
-    const double eta = par("ETA", 3e-2);
-    const int sweeps = (int)par("SWEEPS", 0);
-    bool settled = false;
-    for (report_.iterations = 1; report_.iterations <= options_.max_iterations; ++report_.iterations) {
-      int cyc = report_.cycles;
-      double alpha = correct(settled ? 0 : eta);
-      int sw = (alpha > 0 && report_.iterations < 12) ? sweeps : 2;
-      for (int k = 0; k < sw; ++k) smooth();
-      A_.residual(b_, H_, r_, work_);
-      report_.violation = violation();
-      std::ptrdiff_t before = count_;
-      std::ptrdiff_t changed = 0;
-      if (report_.violation > tol_) changed = update_set();
-      settled = changed == 0;
-      if (dbg)
-        printf("  outer %d cycles %d alpha %.3f set %td -> %td changed %td viol %.2e rebuilt %d\n", report_.iterations,
-               report_.cycles - cyc, alpha, before, count_, changed, report_.violation, rebuilds_);
-      if (report_.violation <= tol_) { report_.active = count_; return report_; }
+    if (!check_and_clean()) return report_;
+    balance();
+    start();
+    bool at_rest = false;
+    while (report_.iterations < max_iterations_) {
+      ++report_.iterations;
+      const bool good = step_on_set(at_rest ? 0.0 : inexact);
+      if (!good || report_.iterations > patience) {
+        sweep();
+        sweep();
+      }
+      matrix_.residual(b_, H_, r_, work_);
+      report_.violation = largest_violation();
+      if (report_.violation <= tolerance_) {
+        report_.active = count_positive();
+        return report_;
+      }
+      at_rest = !update_set();
     }
-    throw NumericalError("obstacle not converged");
+    std::ostringstream message;
+    message << "redistribution of volume: the obstacle problem did not converge in " << report_.iterations
+            << " iterations (" << report_.cycles << " multigrid cycles); a volume fraction is still off by "
+            << report_.violation;
+    throw NumericalError(message.str());
   }
 
  private:
-  void prepare() {
-    // a fraction within half the tolerance of the limit counts as at the limit
-    tol_ = options_.tolerance / 2;
-    for_each<Cell>(layout_, A_.box, [&](Cell c) {
-      if (std::abs(b_[c]) <= tol_ * volume_[c]) b_[c] = 0;
+  template <class F>
+  double total(F&& f) const {
+    return sum<Cell>(layout_, matrix_.box, f);
+  }
+
+  /// Returns false when H = 0 solves the problem.
+  bool check_and_clean() {
+    if (!std::isfinite(total([&](Cell c) { return std::abs(b_[c]) + std::abs(H_[c]); }))) {
+      throw NumericalError("redistribution of volume: a volume fraction or H is not finite");
+    }
+    for_each<Cell>(layout_, matrix_.box, [&](Cell c) {
+      if (std::abs(b_[c]) <= tolerance_ * volume_[c]) b_[c] = 0;
       H_[c] = std::max(H_[c], 0.0);
     });
-    report_.violation = maximum<Cell>(layout_, A_.box, 0, [&](Cell c) { return b_[c] / volume_[c]; });
-    if (report_.violation > tol_) return;
-    for_each<Cell>(layout_, A_.box, [&](Cell c) { H_[c] = 0; });
-    report_.trivial = true;
+    report_.violation = maximum<Cell>(layout_, matrix_.box, 0, [&](Cell c) { return b_[c] / volume_[c]; });
+    report_.trivial = report_.violation <= tolerance_;
+    if (report_.trivial) for_each<Cell>(layout_, matrix_.box, [&](Cell c) { H_[c] = 0; });
+    return !report_.trivial;
   }
-  void start_set() {
-    const double room = par("ROOM", 1e-3);
-    d_ = CellField(layout_);
-    q_ = CellField(layout_);
+
+  /// In a closed system nothing leaves: there must be room for the excess, and where the room is just enough the sum of
+  /// the right-hand sides must vanish to round-off.
+  void balance() {
+    const double diagonal = total([&](Cell c) { return matrix_.diagonal[c]; });
+    closed_ = total([&](Cell c) { return std::abs(matrix_.row_sum(c)); }) <= round_off * diagonal;
+    if (!closed_) return;
+    const double volume = total([&](Cell c) { return volume_[c]; });
+    const double excess = total([&](Cell c) { return b_[c]; });
+    if (excess > tolerance_ * volume) {
+      std::ostringstream message;
+      message << "redistribution of volume: the closed box is overfull, an excess volume of " << excess
+              << " has no room (volume of the box " << volume << ")";
+      throw NumericalError(message.str());
+    }
+    balanced_ = excess > -tolerance_ * volume;
+    if (balanced_) {
+      for_each<Cell>(layout_, matrix_.box, [&](Cell c) { b_[c] -= excess / volume * volume_[c]; });
+    }
+  }
+
+  void start() {
+    step_ = CellField(layout_);
+    work_vector_ = CellField(layout_);
     r_ = b_;
     set_ = CellMask(layout_, outside);
     reduced_ = StencilMatrix<Dim, Cell>(layout_, Stencil::star);
-    for_each<Cell>(layout_, A_.box, [&](Cell c) { set_[c] = b_[c] > -room * volume_[c] || H_[c] > 0; });
-    box_ = bounding_box<Cell>(layout_, A_.box, [&](Cell c) { return set_[c] != 0; });
-    work_ = intersect(grow(box_, 1), A_.box);
-    A_.residual(b_, H_, r_, work_);
-    rebuild_ = true;
+    for_each<Cell>(layout_, matrix_.box,
+                   [&](Cell c) { set_[c] = b_[c] > -room_of_full_cells * volume_[c] || H_[c] > 0 ? inside : outside; });
+    bound_set(matrix_.box);
+    matrix_.residual(b_, H_, r_, work_);
   }
-  std::ptrdiff_t update_set() {
-    front_.clear();
-    std::ptrdiff_t changed = 0;
-    const detail::Rows<Dim> rows(layout_, work_);
-    count_ = 0;
-    for (std::ptrdiff_t r = 0; r < rows.count; ++r)
-      for (int i = 0; i < rows.length; ++i) {
-        const Cell c{rows.start(r) + i};
-        const bool in = H_[c] > 0 || r_[c] > tol_ * volume_[c];
-        if (in != (set_[c] == inside)) ++changed;
-        if (in && !(H_[c] > 0)) front_.push_back(c);
-        set_[c] = in ? inside : outside;
-        count_ += in;
-      }
-    if (par("TOPPLE", 1) > 0) changed += topple();
-    box_ = bounding_box<Cell>(layout_, A_.box, [&](Cell c) { return set_[c] != 0; });
-    work_ = intersect(grow(box_, 1), A_.box);
-    stale_ += changed;
-    if ((double)stale_ > par("STALE", 0.05) * (double)count_) rebuild_ = true;
-    if (changed) refill_ = true;
-    return changed;
+
+  /// Finds the boxes of the set, all of which lies in `where`.
+  void bound_set(const Box<Dim>& where) {
+    box_ = bounding_box<Cell>(layout_, where, [&](Cell c) { return set_[c] == inside; });
+    work_ = intersect(grow(box_, 1), matrix_.box);
+    set_is_new_ = true;
   }
-  std::ptrdiff_t topple() {
-    std::ptrdiff_t added = 0;
-    std::vector<Cell> wave = front_, next, met;
-    for (Cell c : wave) q_[c] = r_[c];
-    while (!wave.empty()) {
-      met.clear();
-      for (Cell c : wave) {
-        int n = 0;
-        for_neighbours(c, [&](Cell k) { n += set_[k] != inside; });
-        for_neighbours(c, [&](Cell k) {
-          if (set_[k] == inside) return;
-          if (set_[k] == outside) set_[k] = reached, q_[k] = r_[k], met.push_back(k);
-          q_[k] += q_[c] / n;
-        });
-      }
-      next.clear();
-      for (Cell k : met) {
-        if (q_[k] > 0) set_[k] = inside, next.push_back(k);
-        else set_[k] = outside, r_[k] = q_[k];
-      }
-      added += (std::ptrdiff_t)next.size();
-      std::swap(wave, next);
-    }
-    count_ += added;
-    return added;
+
+  std::ptrdiff_t count_positive() const {
+    return static_cast<std::ptrdiff_t>(total([&](Cell c) { return H_[c] > 0 ? 1.0 : 0.0; }));
   }
-  template <class F> void for_neighbours(Cell c, F&& f) {
-    for (std::size_t e = 0; e < A_.lower.size(); ++e) {
-      if (A_.lower[e][c] != 0) f(c - A_.steps[e]);
-      if (A_.lower[e][c + A_.steps[e]] != 0) f(c + A_.steps[e]);
-    }
-  }
-  double violation() {
+
+  double largest_violation() const {
     return maximum<Cell>(layout_, work_, 0, [&](Cell c) {
-      const double v = r_[c] / volume_[c];
-      return H_[c] > 0 ? std::abs(v) : v;
-    });
-  }
-  void reduce() {
-    reduced_.box = box_;
-    for_each<Cell>(layout_, box_, [&](Cell c) { reduced_.diagonal[c] = A_.diagonal[c]; });
-    for (int d = 0; d < Dim; ++d) {
-      const auto e = static_cast<std::size_t>(d);
-      const Step s = layout_.step(d);
-      for_each<Cell>(layout_, extend_high(box_, d), [&](Cell c) { reduced_.lower[e][c] = set_[c] && set_[c - s] ? A_.lower[e][c] : 0; });
-    }
-    refill_ = false;
-  }
-  double correct(double eta) {
-    if (box_.empty()) return 0;
-    if (refill_) reduce();
-    if (rebuild_) {
-      preconditioner_.emplace(reduced_);
-      pre_box_ = box_;
-      ++rebuilds_;
-      rebuild_ = false;
-      stale_ = 0;
-    }
-    for_each<Cell>(layout_, work_, [&](Cell c) { d_[c] = 0, q_[c] = set_[c] ? r_[c] : 0; });
-    Tolerance t;
-    t.relative = eta;
-    t.absolute = 0.3 * tol_;
-    t.max_iterations = 100;
-    const auto rep = conjugate_gradients<Cell>(
-        layout_, box_, [&](const CellField& x, CellField& y) { reduced_.apply(x, y); },
-        [&](const CellField& x, CellField& y) {
-          if (pre_box_ == box_ && stale_ == 0) return (*preconditioner_)(x, y);
-          for_each<Cell>(layout_, box_, [&](Cell c) { y[c] = x[c] / A_.diagonal[c]; });
-          (*preconditioner_)(x, y);
-          for_each<Cell>(layout_, box_, [&](Cell c) { y[c] = set_[c] ? y[c] : 0; });
-        },
-        q_, d_, t, [&](const CellField& x) {
-          return maximum<Cell>(layout_, box_, 0, [&](Cell c) { return std::abs(x[c]) / volume_[c]; });
-        });
-    report_.cycles += rep.iterations;
-    for_each<Cell>(layout_, box_, [&](Cell c) { d_[c] = std::max(d_[c], -H_[c]); });
-    A_.apply(d_, q_, work_);
-    const double slope = dot<Cell>(layout_, box_, r_, d_);
-    const double curvature = dot<Cell>(layout_, box_, d_, q_);
-    if (!(slope > 0)) return -1;
-    double alpha = slope / curvature;
-    const double limit = 1 / maximum<Cell>(layout_, box_, 1e-300, [&](Cell c) { return d_[c] < 0 ? -d_[c] / H_[c] : 0; });
-    alpha = std::min(alpha, std::max(1.0, limit));
-    combine<Cell>(layout_, box_, H_, d_, [alpha](double& h, double d) { h += alpha * d; if (h < 0) h = 0; });
-    return alpha;
-  }
-  void smooth() {
-    for_each_coloured<Cell>(layout_, work_, [&](Cell c, const Index<Dim>&) {
-      double s = b_[c];
-      for (std::size_t e = 0; e < A_.lower.size(); ++e)
-        s -= A_.lower[e][c] * H_[c - A_.steps[e]] + A_.lower[e][c + A_.steps[e]] * H_[c + A_.steps[e]];
-      H_[c] = s > 0 ? s / A_.diagonal[c] : 0;
+      const double error = r_[c] / volume_[c];
+      return H_[c] > 0 ? std::abs(error) : error;
     });
   }
 
-  const StencilMatrix<Dim, Cell>& A_;
+  /// H += the projected solution of A d = r on the set. Returns false when the projection spoiled the direction.
+  bool step_on_set(double reduction) {
+    if (box_.empty()) return false;
+    if (set_is_new_) set_up();
+    for_each<Cell>(layout_, work_, [&](Cell c) {
+      step_[c] = 0;
+      work_vector_[c] = in_system(c) ? r_[c] : 0;
+    });
+    const Tolerance tolerance{reduction, residual_share * tolerance_, 100};
+    const SolveReport linear = conjugate_gradients<Cell>(
+        layout_, box_, [&](const CellField& x, CellField& y) { reduced_.apply(x, y); }, *preconditioner_, work_vector_,
+        step_, tolerance,
+        [&](const CellField& x) {
+          return maximum<Cell>(layout_, box_, 0, [&](Cell c) { return std::abs(x[c]) / volume_[c]; });
+        });
+    report_.cycles += linear.iterations;
+    if (!linear.converged) use_next_method();
+    if (pinned_ && balanced_) lift_step();
+    return move_along_projected_step() && !(pinned_ && !balanced_);
+  }
+
+  void set_up() {
+    pin_if_singular();
+    reduced_.box = box_;
+    for_each<Cell>(layout_, box_, [&](Cell c) { reduced_.diagonal[c] = matrix_.diagonal[c]; });
+    for (int d = 0; d < Dim; ++d) {
+      const CellField& all = matrix_.lower[static_cast<std::size_t>(d)];
+      CellField& kept = reduced_.lower[static_cast<std::size_t>(d)];
+      const Step back = layout_.step(d);
+      for_each<Cell>(layout_, extend_high(box_, d),
+                     [&](Cell c) { kept[c] = in_system(c) && in_system(c - back) ? all[c] : 0; });
+    }
+    // A fresh hierarchy for every set: with one of an older set CG takes several times the iterations.
+    preconditioner_.emplace(reduced_, method_);
+    set_is_new_ = false;
+  }
+
+  bool in_system(Cell c) const { return set_[c] == inside && !(pinned_ && c == *pinned_); }
+
+  /// The matrix of a closed system is singular on a set of all cells: H stays as it is in the cell with the most room.
+  void pin_if_singular() {
+    pinned_.reset();
+    if (!closed_ || !(box_ == matrix_.box)) return;
+    double least = std::numeric_limits<double>::max();
+    const detail::Rows<Dim> rows(layout_, box_);
+    Cell emptiest;
+    for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
+      for (int i = 0; i < rows.length; ++i) {
+        const Cell c{rows.start(r) + i};
+        if (set_[c] != inside) return;
+        if (r_[c] / volume_[c] < least) {
+          least = r_[c] / volume_[c];
+          emptiest = c;
+        }
+      }
+    }
+    pinned_ = emptiest;
+  }
+
+  /// When the excess just fits, H is determined up to a constant: choose it such that its minimum is zero.
+  void lift_step() {
+    const double lift = maximum<Cell>(layout_, box_, std::numeric_limits<double>::lowest(),
+                                      [&](Cell c) { return -(H_[c] + step_[c]); });
+    for_each<Cell>(layout_, box_, [&](Cell c) { step_[c] += lift; });
+  }
+
+  /// A preconditioner that fails once is not tried again.
+  void use_next_method() {
+    const Method used = preconditioner_->method();
+    method_ = used == Method::smg ? Method::jacobi : Method::smg;
+    set_is_new_ = true;
+  }
+
+  bool move_along_projected_step() {
+    for_each<Cell>(layout_, box_, [&](Cell c) { step_[c] = std::max(step_[c], -H_[c]); });
+    matrix_.apply(step_, work_vector_, box_);
+    const double slope = dot<Cell>(layout_, box_, r_, step_);
+    const double curvature = dot<Cell>(layout_, box_, step_, work_vector_);
+    if (!(slope > 0)) return false;
+    // The functional falls by length (slope - length curvature / 2). Steps somewhat too long are left at 1 all the
+    // same, because only a full step takes projected cells to zero and thereby out of the set.
+    const double best = curvature > 0 ? slope / curvature : 1;
+    const bool good = best > 0.5;
+    double length = best;
+    if (good && best < 1) length = 1;
+    if (best > 1) {
+      const double steepest_fall =
+          maximum<Cell>(layout_, box_, 0, [&](Cell c) { return step_[c] < 0 ? -step_[c] / H_[c] : 0.0; });
+      length = steepest_fall > 0 ? std::clamp(1 / steepest_fall, 1.0, best) : best;
+    }
+    combine<Cell>(layout_, box_, H_, step_, [length](double& h, double d) { h = std::max(h + length * d, 0.0); });
+    return good;
+  }
+
+  /// One projected Gauss-Seidel sweep: the exact minimum in every cell in turn.
+  void sweep() {
+    for_each_coloured<Cell>(layout_, work_, [&](Cell c, const Index<Dim>&) {
+      double excess = b_[c];
+      for (std::size_t e = 0; e < matrix_.lower.size(); ++e) {
+        const Step s = matrix_.steps[e];
+        excess -= matrix_.lower[e][c] * H_[c - s] + matrix_.lower[e][c + s] * H_[c + s];
+      }
+      H_[c] = excess > 0 ? excess / matrix_.diagonal[c] : 0;
+    });
+  }
+
+  /// The set of cells with H > 0 or room for less than they get. Returns whether it changed.
+  bool update_set() {
+    std::vector<Cell> overfull;
+    bool changed = false;
+    const detail::Rows<Dim> rows(layout_, work_);
+    for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
+      for (int i = 0; i < rows.length; ++i) {
+        const Cell c{rows.start(r) + i};
+        const bool gets_too_much = !(H_[c] > 0) && r_[c] > tolerance_ * volume_[c];
+        const unsigned char now = H_[c] > 0 || gets_too_much ? inside : outside;
+        if (gets_too_much) overfull.push_back(c);
+        changed = changed || now != set_[c];
+        set_[c] = now;
+      }
+    }
+    if (grow_ahead(std::move(overfull))) changed = true;
+    if (changed) bound_set(matrix_.box);
+    return changed;
+  }
+
+  /// Lets the excess of overfull cells run on, layer by layer, to neighbours outside the set; whoever it fills joins.
+  /// Returns whether any cell joined.
+  bool grow_ahead(std::vector<Cell> wave) {
+    CellField& excess = work_vector_;
+    bool joined = false;
+    std::vector<Cell> met;
+    for (const Cell c : wave) excess[c] = r_[c];
+    while (!wave.empty()) {
+      met.clear();
+      for (const Cell c : wave) {
+        int receivers = 0;
+        for_each_neighbour(c, [&](Cell k) { receivers += set_[k] != inside ? 1 : 0; });
+        for_each_neighbour(c, [&](Cell k) {
+          if (set_[k] == inside) return;
+          if (set_[k] == outside) {
+            set_[k] = reached;
+            excess[k] = r_[k];
+            met.push_back(k);
+          }
+          excess[k] += excess[c] / receivers;
+        });
+      }
+      wave.clear();
+      for (const Cell k : met) {
+        const bool full = excess[k] > 0;
+        set_[k] = full ? inside : outside;
+        if (full) wave.push_back(k);
+        // What a cell took up counts when the next wave meets it. Residuals are computed afresh after the next step.
+        if (!full) r_[k] = excess[k];
+      }
+      joined = joined || !wave.empty();
+    }
+    return joined;
+  }
+
+  template <class Body>
+  void for_each_neighbour(Cell c, Body&& body) const {
+    for (std::size_t e = 0; e < matrix_.lower.size(); ++e) {
+      const Step s = matrix_.steps[e];
+      if (matrix_.lower[e][c] != 0) body(c - s);
+      if (matrix_.lower[e][c + s] != 0) body(c + s);
+    }
+  }
+
+  const StencilMatrix<Dim, Cell>& matrix_;
   const Layout<Dim>& layout_;
   const CellField& volume_;
   CellField& H_;
-  const ObstacleOptions& options_;
-  CellField b_, r_, d_, q_;
+  int max_iterations_;
+  double tolerance_;
+  CellField b_;
+  CellField r_;  ///< b - A H on work_, b elsewhere
+  CellField step_, work_vector_;
   CellMask set_;
-  Box<Dim> box_, work_, pre_box_;
-  StencilMatrix<Dim, Cell> reduced_;
+  Box<Dim> box_;   ///< of the set
+  Box<Dim> work_;  ///< the set and its neighbours: H = 0 outside
+  bool closed_ = false;
+  bool balanced_ = false;  ///< closed, and the excess just fits
+  std::optional<Cell> pinned_;
+  bool set_is_new_ = true;
+  StencilMatrix<Dim, Cell> reduced_;  ///< the matrix on the set; couplings out of it are left out
+  Method method_ = Method::automatic;
   std::optional<Preconditioner<Dim, Cell>> preconditioner_;
   ObstacleReport report_;
-  double tol_ = 0;
-  bool rebuild_ = true, refill_ = true;
-  int rebuilds_ = 0;
-  std::ptrdiff_t count_ = 0, stale_ = 0;
-  std::vector<Cell> front_;
 };
 
 }  // namespace

@@ -22,43 +22,71 @@ constexpr std::ptrdiff_t largest_direct = Dim == 2 ? 1536 : 512;
 
 /// Aspect ratio up to which relaxation by points suits a 9-point matrix.
 constexpr double largest_point_aspect = 1.6;
-/// Largest crossing (see below) for which PFMG is cheaper than SMG, whose plane relaxation costs far more in space.
+/// Grading of two axes up to which PFMG is cheaper than SMG, whose plane relaxation costs far more in space.
 template <int Dim>
-constexpr double largest_pfmg_crossing = Dim == 2 ? 5 : 60;
+constexpr double largest_pfmg_grading = Dim == 2 ? 3 : 30;
 
-/// Shape of the cells as the matrix shows it, from the square roots of the ratios of couplings along pairs of axes.
+/// Shape of the cells as the matrix shows it: aspect ratios are square roots of ratios of couplings along two axes.
 struct Anisotropy {
-  double aspect = 1;    ///< largest ratio anywhere
-  double crossing = 1;  ///< how large the ratio gets both ways round: 1 for any constant aspect ratio or one graded
-                        ///< axis, large where two graded axes turn the strong direction round within the domain
+  double aspect = 1;  ///< largest aspect ratio
+  double grading =
+      1;  ///< how much the aspect ratio varies along each of two axes, the lesser of the two: 1 for any constant
+          ///< aspect ratio and when one axis is graded, large where the strong direction turns round
 };
 
+/// The anisotropy of axes d and e.
 template <int Dim, class At>
-Anisotropy anisotropy(const StencilMatrix<Dim, At>& star) {
-  constexpr double lowest = std::numeric_limits<double>::lowest();
-  Anisotropy result;
+Anisotropy anisotropy(const StencilMatrix<Dim, At>& star, int d, int e) {
   const auto coupling = [&](int axis, At p) {
     const auto a = static_cast<std::size_t>(axis);
     return -std::min(star.lower[a][p], star.lower[a][p + star.steps[a]]);
   };
-  // Largest ratio of the coupling along axis i to that along j; rows that do not couple along both don't count.
-  const auto largest_ratio = [&](int i, int j) {
-    const double squared = maximum<At>(star.layout, star.box, lowest, [&](At p) {
-      const double a = coupling(i, p);
-      const double b = coupling(j, p);
-      return a > 0 && b > 0 ? a / b : lowest;
-    });
-    return squared > 0 ? std::sqrt(squared) : 1.0;
-  };
-  for (int d = 0; d < Dim; ++d) {
-    for (int e = d + 1; e < Dim; ++e) {
-      const double one_way = largest_ratio(d, e);
-      const double other_way = largest_ratio(e, d);
-      result.aspect = std::max({result.aspect, one_way, other_way});
-      result.crossing = std::max(result.crossing, std::min(one_way, other_way));
+  // Largest squared ratio in every slice of the box across d, and across e. On a grid the ratio is a product f(x_d)
+  // g(x_e), so that these are f and g up to a factor.
+  std::vector<double> along_d(static_cast<std::size_t>(star.box.extent(d)));
+  std::vector<double> along_e(static_cast<std::size_t>(star.box.extent(e)));
+  Anisotropy result;
+  const detail::Rows<Dim> rows(star.layout, star.box);
+  for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
+    Index<Dim> index = star.layout.multi(rows.start(r));
+    for (int i = 0; i < rows.length; ++i, ++index[0]) {
+      const At p{rows.start(r) + i};
+      const double a = coupling(d, p);
+      const double b = coupling(e, p);
+      if (!(a > 0 && b > 0)) continue;
+      double& slice_d = along_d[static_cast<std::size_t>(index[d] - star.box.lo[d])];
+      double& slice_e = along_e[static_cast<std::size_t>(index[e] - star.box.lo[e])];
+      slice_d = std::max(slice_d, a / b);
+      slice_e = std::max(slice_e, a / b);
+      result.aspect = std::max({result.aspect, a / b, b / a});
     }
   }
+  const auto spread = [](const std::vector<double>& slices) {
+    double high = 0;
+    double low = std::numeric_limits<double>::max();
+    for (const double s : slices) {
+      if (s == 0) continue;  // no row couples both ways
+      high = std::max(high, s);
+      low = std::min(low, s);
+    }
+    return high > 0 ? std::sqrt(high / low) : 1.0;
+  };
+  result.aspect = std::sqrt(result.aspect);
+  result.grading = std::min(spread(along_d), spread(along_e));
   return result;
+}
+
+template <int Dim, class At>
+Anisotropy anisotropy(const StencilMatrix<Dim, At>& star) {
+  Anisotropy worst;
+  for (int d = 0; d < Dim; ++d) {
+    for (int e = d + 1; e < Dim; ++e) {
+      const Anisotropy pair = anisotropy(star, d, e);
+      worst.aspect = std::max(worst.aspect, pair.aspect);
+      worst.grading = std::max(worst.grading, pair.grading);
+    }
+  }
+  return worst;
 }
 
 /// Whether at most one axis has more than one point: factors don't fill in.
@@ -166,7 +194,7 @@ Method choose_method(const StencilMatrix<Dim, At>& matrix) {
   if (matrix.box.size() <= largest_direct<Dim> || is_line(matrix.box)) return Method::direct;
   const bool star = matrix.stencil == Stencil::star;
   const Anisotropy shape = anisotropy(star ? matrix : star_part(matrix));
-  if (shape.crossing > largest_pfmg_crossing<Dim>) return Method::smg;
+  if (shape.grading > largest_pfmg_grading<Dim>) return Method::smg;
   if (star) return Method::pfmg;
   // PFMG for 27 points converges slowly in hypre 2.26.
   return Dim == 2 && shape.aspect <= largest_point_aspect ? Method::pfmg : Method::star_pfmg;

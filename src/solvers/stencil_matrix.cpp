@@ -116,6 +116,13 @@ void StencilMatrix<Dim, At>::set_identity(At p) {
 }
 
 template <int Dim, class At>
+double StencilMatrix<Dim, At>::row_sum(At p) const {
+  double total = diagonal[p];
+  for (std::size_t e = 0; e < lower.size(); ++e) total += lower[e][p] + lower[e][p + steps[e]];
+  return total;
+}
+
+template <int Dim, class At>
 bool StencilMatrix<Dim, At>::uncoupled(At p) const {
   for (std::size_t e = 0; e < lower.size(); ++e) {
     if (lower[e][p] != 0 || lower[e][p + steps[e]] != 0) return false;
@@ -151,10 +158,7 @@ StencilMatrix<Dim, At> star_part(const StencilMatrix<Dim, At>& matrix) {
     });
   }
   for_each<At>(layout, matrix.box, [&](At p) {
-    double diagonal = matrix.diagonal[p];
-    for (std::size_t e = 0; e < matrix.lower.size(); ++e) {
-      diagonal += matrix.lower[e][p] + matrix.lower[e][p + matrix.steps[e]];
-    }
+    double diagonal = matrix.row_sum(p);
     for (std::size_t e = 0; e < star.lower.size(); ++e) {
       diagonal -= star.lower[e][p] + star.lower[e][p + star.steps[e]];
     }

@@ -46,6 +46,8 @@ struct StencilMatrix {
   void residual(const Field<At>& b, const Field<At>& x, Field<At>& r, const Box<Dim>& where) const;
   /// Row p becomes an identity row with symmetric elimination. Writes to p's neighbours: not for threaded loops.
   void set_identity(At p);
+  /// Sum of the entries of row p.
+  double row_sum(At p) const;
   /// Whether row p couples to nothing, as identity rows do.
   bool uncoupled(At p) const;
 };

@@ -53,7 +53,8 @@ TEST(ConfigCase, ShownCaseReadsBackToTheSame) {
   const std::vector<std::vector<std::string>> variants = {
       {},
       {"time={end: 0.1, cfl: 0.3, max_step: 0.012345678901234567, min_step: 1e-300}", "gravity=[0, 0, -9.81]"},
-      {"title=\"quoted: \\\"text\\\", # 'no comment'\\n- line\"", "output.fields={times: [0, 0.1, 3.3333333333333335]}"},
+      {"title=\"quoted: \\\"text\\\", # 'no comment'\\n- line\"",
+       "output.fields={times: [0, 0.1, 3.3333333333333335]}"},
       {"title='2024'", "output.directory='true'", "gravity=0"},
       {"initial.0.shape={wave: {bottom: 0, level: 0.4, amplitude: -0.1, wavenumber: 7.66}}"},
       {"initial.0.shape={polygon: {points: [[0, 0], [0.1, 0], [0.2, 0.7], [0, 0.9]]}}"},
@@ -112,11 +113,12 @@ TEST(ConfigCase, SettingErrorsNameTheOption) {
 
 TEST(ConfigCase, UnitsAreConverted) {
   const std::string si = with("units: none\n", "");
-  const CaseConfig config = parse_case(
-      si, "case.yaml",
-      {"grid.x={from: 0, to: 20 in, cells: 16}", "species.0.density=2 g/cm^3", "ambient_pressure=1 atm",
-       "boundaries.z_max={open: 33.9 ftH2O}", "time.step=0.5 ms", "gravity=32.174 ft/s^2", "time.end=4 s",
-       "species.1.rheology.viscosity=1 cP", "species.0.rheology.yield_stress=1 kPa", "initial.0.velocity=[0, 0, 1 cm/s]"});
+  const CaseConfig config =
+      parse_case(si, "case.yaml",
+                 {"grid.x={from: 0, to: 20 in, cells: 16}", "species.0.density=2 g/cm^3", "ambient_pressure=1 atm",
+                  "boundaries.z_max={open: 33.9 ftH2O}", "time.step=0.5 ms", "gravity=32.174 ft/s^2", "time.end=4 s",
+                  "species.1.rheology.viscosity=1 cP", "species.0.rheology.yield_stress=1 kPa",
+                  "initial.0.velocity=[0, 0, 1 cm/s]"});
   EXPECT_NEAR(config.grid.x[0].to, 0.508, 1e-15);
   EXPECT_NEAR(config.species[0].density, 2000, 1e-9);
   EXPECT_EQ(config.ambient_pressure, 101325);
@@ -158,8 +160,9 @@ TEST(ConfigGrid, UniformFacesAreExactAtTheEnds) {
 
 TEST(ConfigGrid, SmoothSegmentsContinueTheNeighboursWidth) {
   // The fine grid of a box 30 in wide: 0.12 in up to 9 in, then coarser.
-  const std::vector<double> faces = make_faces(
-      {{-30.0, -9.0, 12, Stretch::smooth}, {std::nullopt, 9.0, 150, Stretch::uniform}, {9.0, 30.0, 12, Stretch::smooth}});
+  const std::vector<double> faces = make_faces({{-30.0, -9.0, 12, Stretch::smooth},
+                                                {std::nullopt, 9.0, 150, Stretch::uniform},
+                                                {9.0, 30.0, 12, Stretch::smooth}});
   ASSERT_EQ(faces.size(), 175u);
   const auto width = [&](std::size_t i) { return faces[i + 1] - faces[i]; };
   EXPECT_NEAR(width(11), 0.12, 1e-12);
@@ -175,10 +178,9 @@ TEST(ConfigGrid, ImpossibleSmoothSegmentsAreRefused) {
   EXPECT_THROW(make_faces({{0.0, 1.0, 4, Stretch::smooth}}), InputError);
   EXPECT_THROW(make_faces({{0.0, 1.0, 100, Stretch::uniform}, {1.0, 2.0, 2, Stretch::smooth}}), InputError);
   EXPECT_THROW(make_faces({{0.0, 1.0, 2, Stretch::uniform}, {1.0, 1.1, 5, Stretch::smooth}}), InputError);
-  EXPECT_THROW(make_faces({{0.0, 1.0, 4, Stretch::uniform},
-                           {1.0, 2.0, 4, Stretch::smooth},
-                           {2.0, 3.0, 4, Stretch::uniform}}),
-               InputError);
+  EXPECT_THROW(
+      make_faces({{0.0, 1.0, 4, Stretch::uniform}, {1.0, 2.0, 4, Stretch::smooth}, {2.0, 3.0, 4, Stretch::uniform}}),
+      InputError);
 }
 
 TEST(ConfigGrid, BuildsGridAndSides) {

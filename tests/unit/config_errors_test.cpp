@@ -12,7 +12,7 @@ namespace {
 struct Mistake {
   std::string from;
   std::string to;
-  std::string place;    ///< line and column
+  std::string place;  ///< line and column
   std::string path;
   std::string message;  ///< part of it
 };
@@ -31,7 +31,7 @@ TEST_P(ConfigMistake, IsReportedAtItsPlaceAndAlone) {
 
 const Mistake value_mistakes[] = {
     {"title: A test", "title: [1]", "1:8", "title", "must be text, not a list"},
-    {"title: A test", "title:", "1:7", "title", "must be text, not nothing"},
+    {"title: A test", "title:", "1:1", "title", "must be text, not nothing"},
     {"units: none", "units: metric", "2:8", "units", "must be one of SI, none, not 'metric'"},
     {"dimension: 2", "dimension: 4", "4:14", "grid.dimension", "must be from 2 to 3, not 4"},
     {"dimension: 2", "dimension: two", "4:14", "grid.dimension", "whole number from 2 to 3, not 'two'"},
@@ -70,22 +70,22 @@ const Mistake value_mistakes[] = {
     {"    density: 2.0\n", "", "16:5", "species[0].density", "is required but missing"},
     {"law: papanastasiou", "law: bingham", "18:21", "species[0].rheology.law", "inviscid, newtonian, papanastasiou"},
     {"law: newtonian, ", "", "21:15", "species[1].rheology.law", "is required but missing"},
-    {"yield_stress: 0.3", "yield_stress: -0.3", "18:68", "species[0].rheology.yield_stress", "must be at least 0"},
-    {"regularization: 200", "regularization: -1", "18:89", "species[0].rheology.regularization", "must be at least 0"},
+    {"yield_stress: 0.3", "yield_stress: -0.3", "18:66", "species[0].rheology.yield_stress", "must be at least 0"},
+    {"regularization: 200", "regularization: -1", "18:87", "species[0].rheology.regularization", "must be at least 0"},
     {"fill: sand", "fill: snad", "23:11", "initial[0].fill", "they are sand, water; did you mean 'sand'?"},
-    {"center: [0, 0, 0]", "center: [0.1, 0, 0]", "24:33", "initial[0].shape.cylinder.center", "must lie on the axis"},
+    {"center: [0, 0, 0]", "center: [0.1, 0, 0]", "24:32", "initial[0].shape.cylinder.center", "must lie on the axis"},
     {"radius: 0.25", "radius: 0.75", "24:12", "initial[0].shape", "reaches beyond the grid: to x = 0.75"},
     {"height: 1.0", "height: 2.0", "24:12", "initial[0].shape", "reaches beyond the grid: to z = 2"},
-    {"radius: 0.25", "radius: 0", "24:62", "initial[0].shape.cylinder.radius", "must be greater than 0"},
+    {"radius: 0.25", "radius: 0", "24:51", "initial[0].shape.cylinder.radius", "must be greater than 0"},
     {"end: 4.0", "end: 0", "25:13", "time.end", "must be greater than 0"},
-    {"step: 5.0e-4", "step: 5", "25:29", "time.step", "must not be longer than the run, 4"},
+    {"step: 5.0e-4", "step: 5", "25:24", "time.step", "must not be longer than the run, 4"},
     {", step: 5.0e-4", "", "25:7", "time.step", "give step, or cfl with max_step"},
-    {"step: 5.0e-4", "cfl: 1.5, max_step: 1", "25:28", "time.cfl", "greater than 0 and at most 1, not 1.5"},
+    {"step: 5.0e-4", "cfl: 1.5, max_step: 1", "25:23", "time.cfl", "greater than 0 and at most 1, not 1.5"},
     {"step: 5.0e-4", "cfl: 0.5", "25:7", "time.max_step", "is required but missing"},
-    {"step: 5.0e-4", "step: 1, max_step: 1", "25:38", "time.max_step", "goes with cfl only"},
-    {"step: 5.0e-4", "step: 1, cfl: 0.3, max_step: 1", "25:33", "time.cfl", "not both"},
-    {"every: 0.1", "times: [0.1, 0.3, 0.2]", "28:31", "output.fields.times[2]", "times must increase"},
-    {"every: 0.1", "times: [0.1, 5]", "28:26", "output.fields.times[1]", "is after the end of the run"},
+    {"step: 5.0e-4", "step: 1, max_step: 1", "25:37", "time.max_step", "goes with cfl only"},
+    {"step: 5.0e-4", "step: 1, cfl: 0.3, max_step: 1", "25:32", "time.cfl", "not both"},
+    {"every: 0.1", "times: [0.1, 0.3, 0.2]", "28:30", "output.fields.times[2]", "times must increase"},
+    {"every: 0.1", "times: [0.1, 5]", "28:25", "output.fields.times[1]", "is after the end of the run"},
     {"every: 0.1", "every: 0.1, times: [1]", "28:31", "output.fields.times", "not both"},
     {"every: 0.1", "every: -1", "28:19", "output.fields.every", "must be greater than 0"},
 };
@@ -93,7 +93,8 @@ INSTANTIATE_TEST_SUITE_P(Values, ConfigMistake, testing::ValuesIn(value_mistakes
 
 const Mistake key_mistakes[] = {
     {"ambient_pressure", "ambient_presure", "14:1", "ambient_presure", "did you mean 'ambient_pressure'?"},
-    {"geometry: axi", "colour: red\n  geometry: axi", "5:3", "grid.colour", "allowed keys are dimension, geometry, x, y, z"},
+    {"geometry: axi", "colour: red\n  geometry: axi", "5:3", "grid.colour",
+     "allowed keys are dimension, geometry, x, y, z"},
     {"gravity: 1.0", "gravity: 1.0\nbubbles: []", "14:1", "bubbles", "unknown key"},
     {"gravity: 1.0", "gravity: 1.0\ngravity: 2.0", "14:1", "gravity", "given twice; first in line 13"},
     {"viscosity: 0.01", "viscosity: 0.01, yield_stress: 1", "21:49", "species[1].rheology.yield_stress",
@@ -177,12 +178,11 @@ TEST(ConfigErrors, DeepNestingIsRefused) {
   EXPECT_NE(error_of(std::string(100000, '[')).find("not valid YAML"), std::string::npos);
 }
 
-TEST(ConfigErrors, BrokenFilesNeverGetThrough) {
-  // Cut the file after every line: an error each time, and never another exception.
-  for (std::size_t end = valid_case.find("output:"); end-- > 0;) {
+TEST(ConfigErrors, CutFilesAreRefused) {
+  // Whatever line the file ends at before its last section: an error, and never another exception.
+  for (std::size_t end = valid_case.find("time:"); end-- > 0;) {
     if (valid_case[end] != '\n') continue;
-    const std::string cut = valid_case.substr(0, end);
-    if (cut.find("\ntime:") == std::string::npos) EXPECT_NE(error_of(cut), "") << cut;
+    EXPECT_NE(error_of(valid_case.substr(0, end)), "");
   }
 }
 

@@ -8,7 +8,7 @@
 #include "core/grid.hpp"
 #include "solvers/stencil_matrix.hpp"
 
-namespace quicksand::testing {
+namespace quicksand::problems {
 
 /// n cells of equal width on [lo, hi].
 inline std::vector<double> uniform_axis(int n, double lo = 0, double hi = 1) {
@@ -25,8 +25,8 @@ inline std::vector<double> graded_axis(int n, double ratio) {
   return faces;
 }
 
-/// -div grad on the cells inside(Index), in finite volume form; zero flux at the domain's sides and the value zero on faces
-/// (dirichlet_on_faces) or in cell centres outside.
+/// -div grad on the cells inside(Index), in finite volume form; zero flux at the domain's sides and the value zero on
+/// faces (dirichlet_on_faces) or in cell centres outside.
 template <int Dim, class Inside>
 StencilMatrix<Dim, Cell> cell_laplacian(const Grid<Dim>& grid, Inside&& inside, bool dirichlet_on_faces = false) {
   StencilMatrix<Dim, Cell> matrix(grid.layout(), Stencil::star);
@@ -114,4 +114,4 @@ Field<At> rough_field(const StencilMatrix<Dim, At>& matrix) {
   return b;
 }
 
-}  // namespace quicksand::testing
+}  // namespace quicksand::problems

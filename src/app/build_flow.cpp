@@ -1,0 +1,67 @@
+#include "app/build_flow.hpp"
+
+#include <algorithm>
+
+namespace quicksand {
+
+namespace {
+
+template <int Dim>
+FlowParameters<Dim> parameters_of(const CaseConfig& config) {
+  FlowParameters<Dim> p;
+  p.species = config.species;
+  p.gravity = in_axes<Dim>(config.gravity);
+  p.ambient_pressure = config.ambient_pressure;
+  p.liquid_threshold = config.solver.liquid_threshold;
+  p.linear.relative = config.solver.tolerance;
+  p.linear.max_iterations = config.solver.max_iterations;
+  p.diffusion.iteration = config.solver.viscous_iteration;
+  p.diffusion.tolerance = config.solver.viscous_tolerance;
+  p.diffusion.max_iterations = config.solver.viscous_max_iterations;
+  return p;
+}
+
+std::size_t species_number(const CaseConfig& config, const std::string& name) {
+  const auto found = std::find_if(config.species.begin(), config.species.end(),
+                                  [&](const Species& s) { return s.name == name; });
+  return static_cast<std::size_t>(found - config.species.begin());
+}
+
+/// Fills the shapes one after the other; what does not fit on top of earlier ones (round-off of touching shapes) is left out.
+template <int Dim>
+void fill_shapes(const CaseConfig& config, Flow<Dim>& flow) {
+  const Grid<Dim>& grid = flow.domain().grid;
+  State<Dim>& state = flow.state();
+  CellField filled(grid.layout());
+  CellField mass(grid.layout());
+  for (const InitialFill& fill : config.initial) {
+    const std::size_t s = species_number(config, fill.fill);
+    const Vec<Dim> velocity = in_axes<Dim>(fill.velocity);
+    for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+      const double part = std::min(fraction(fill.shape, grid, i), 1 - filled[c]);
+      if (!(part > 0)) return;
+      state.phi[s][c] += part;
+      filled[c] += part;
+      const double added = part * config.species[s].density;
+      for (int d = 0; d < Dim; ++d) {
+        state.u[d][c] = (mass[c] * state.u[d][c] + added * velocity[d]) / (mass[c] + added);
+      }
+      mass[c] += added;
+    });
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Flow<Dim> build_flow(const CaseConfig& config) {
+  Flow<Dim> flow(Domain<Dim>(make_grid<Dim>(config.grid), make_sides<Dim>(config)), parameters_of<Dim>(config));
+  fill_shapes(config, flow);
+  flow.initialize();
+  return flow;
+}
+
+template Flow<2> build_flow<2>(const CaseConfig&);
+template Flow<3> build_flow<3>(const CaseConfig&);
+
+}  // namespace quicksand

@@ -1,0 +1,15 @@
+#pragma once
+/// \file
+/// From a case to a flow at time zero.
+#include "app/case_config.hpp"
+#include "physics/flow.hpp"
+
+namespace quicksand {
+
+/// Grid, sides, parameters, and the initial fractions and velocities of a case; ready to advance.
+/// Where fills share a cell, its velocity is that of their joint momentum.
+/// \pre config.grid.dimension == Dim
+template <int Dim>
+Flow<Dim> build_flow(const CaseConfig& config);
+
+}  // namespace quicksand

@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// The files of a result folder.
+#include <filesystem>
+#include <optional>
+
+#include "app/case_config.hpp"
+#include "core/text_output.hpp"
+#include "core/snapshot.hpp"
+#include "core/xdmf.hpp"
+#include "physics/diagnostics.hpp"
+#include "physics/flow.hpp"
+
+namespace quicksand {
+
+/// Writes `case.yaml` at once, then fields, history lines and the summary as the run goes.
+template <int Dim>
+class ResultWriter {
+ public:
+  /// \throws FileError
+  ResultWriter(const CaseConfig& config, std::filesystem::path folder);
+
+  /// Field file of the current state; returns its path. \throws FileError
+  std::filesystem::path write_fields(const Flow<Dim>& flow);
+  /// The current state under a name of its own, for looking at what went wrong. \throws FileError
+  std::filesystem::path write_failed_state(const Flow<Dim>& flow);
+  /// One line of `history.csv`. \throws FileError
+  void append_history(const Flow<Dim>& flow, const Diagnostics& diagnostics, const StepReport& report);
+  /// `summary.json`. \throws FileError
+  void write_summary(const Json& summary);
+
+ private:
+  FieldSnapshot snapshot(const Flow<Dim>& flow) const;
+
+  const CaseConfig& config_;
+  std::filesystem::path folder_;
+  XdmfSeries series_;
+  std::optional<CsvWriter> history_;
+};
+
+}  // namespace quicksand

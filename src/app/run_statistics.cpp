@@ -1,0 +1,96 @@
+#include "app/run_statistics.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/threads.hpp"
+
+namespace quicksand {
+
+namespace {
+
+std::size_t at(Phase phase) { return static_cast<std::size_t>(phase); }
+
+/// Largest memory in use so far, in MiB.
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+std::array<int, phase_names.size()> iterations_of(const StepReport& report) {
+  std::array<int, phase_names.size()> n{};
+  n[at(Phase::mac_projection)] = report.mac.iterations;
+  for (const ObstacleReport& obstacle : report.obstacle) n[at(Phase::redistribute_volume)] += obstacle.iterations;
+  n[at(Phase::redistribute_momentum)] = report.momentum.iterations;
+  n[at(Phase::diffusion)] = report.diffusion.iterations;
+  n[at(Phase::projection)] = report.projection.iterations;
+  return n;
+}
+
+}  // namespace
+
+RunStatistics::RunStatistics(std::vector<double> initial_volume, long cells)
+    : cells_(cells), initial_volume_(std::move(initial_volume)), volume_error_(initial_volume_.size(), 0.0) {}
+
+void RunStatistics::add(const StepReport& report, const std::vector<double>& volume, double kinetic_energy,
+                        double total_energy) {
+  ++steps_;
+  const double whole = std::accumulate(initial_volume_.begin(), initial_volume_.end(), 0.0);
+  for (std::size_t i = 0; i < volume.size(); ++i) {
+    volume_error_[i] = std::max(volume_error_[i], std::abs(volume[i] - initial_volume_[i]) / whole);
+  }
+  // Energies of the step are per radian in axisymmetric flows; so must be what they are compared with.
+  const double scale = std::abs(total_energy) + kinetic_energy;
+  if (scale > 0) {
+    redistribution_rise_ = std::max(redistribution_rise_, report.redistribution_energy_change / scale);
+    projection_rise_ = std::max(projection_rise_, report.projection_energy_change / scale);
+  }
+  const auto iterations = iterations_of(report);
+  for (std::size_t k = 0; k < phase_names.size(); ++k) {
+    seconds_[k] += report.seconds[k];
+    iterations_[k] += iterations[k];
+    most_iterations_[k] = std::max(most_iterations_[k], iterations[k]);
+  }
+  linear_iterations_ += report.diffusion.linear_iterations;
+  fallbacks_ += report.diffusion.fell_back ? 1 : 0;
+}
+
+double RunStatistics::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+Json RunStatistics::summary(const std::string& status, const std::string& message, double time,
+                            const std::vector<std::string>& species) const {
+  const double wall = seconds();
+  Json json;
+  json["status"] = status;
+  if (!message.empty()) json["message"] = message;
+  json["time"] = time;
+  json["steps"] = steps_;
+  json["retried_steps"] = retries_;
+  json["cells"] = cells_;
+  json["wall_seconds"] = wall;
+  json["cell_steps_per_second"] = wall > 0 ? static_cast<double>(cells_ * steps_) / wall : 0.0;
+  json["threads"] = thread_count();
+  json["peak_memory_MiB"] = peak_memory();
+  for (std::size_t i = 0; i < species.size(); ++i) json["volume_error"][species[i]] = volume_error_[i];
+  json["energy_increase"]["redistribution"] = redistribution_rise_;
+  json["energy_increase"]["projection"] = projection_rise_;
+  const double cell_steps = static_cast<double>(std::max(cells_ * steps_, 1L));
+  for (std::size_t k = 0; k < phase_names.size(); ++k) {
+    Json& phase = json["phases"][phase_names[k]];
+    phase["seconds"] = seconds_[k];
+    phase["microseconds_per_cell_step"] = 1e6 * seconds_[k] / cell_steps;
+    phase["iterations"] = iterations_[k];
+    phase["most_iterations_in_a_step"] = most_iterations_[k];
+  }
+  json["phases"]["diffusion"]["linear_iterations"] = linear_iterations_;
+  json["phases"]["diffusion"]["fallbacks"] = fallbacks_;
+  return json;
+}
+
+}  // namespace quicksand

@@ -1,0 +1,63 @@
+#include "app/time_control.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/errors.hpp"
+#include "core/text_output.hpp"
+
+namespace quicksand {
+
+namespace {
+
+/// Steps grow at most so fast: a step that follows a retry or an impact should not jump back at once.
+constexpr double largest_growth = 1.3;
+/// The first step by CFL number starts from rest, where the stable one follows from gravity alone.
+constexpr double first_step_share = 0.1;
+/// Times closer than this, relative to the step, count as equal.
+constexpr double time_slack = 1e-6;
+
+}  // namespace
+
+TimeControl::TimeControl(const TimeSettings& time, const OutputSchedule& fields) : time_(time), fields_(fields) {}
+
+double TimeControl::next_output() const {
+  if (fields_.every) return static_cast<double>(outputs_done_) * *fields_.every;
+  const auto n = static_cast<std::size_t>(outputs_done_);
+  return n < fields_.times.size() ? fields_.times[n] : std::numeric_limits<double>::infinity();
+}
+
+double TimeControl::next_step(double now, double last_dt, double stable) const {
+  const double left = time_.end - now;
+  double dt = 0;
+  double until = left;
+  if (time_.step) {
+    dt = *time_.step;
+  } else {
+    dt = std::min(stable, time_.max_step.value_or(left));
+    dt = last_dt > 0 ? std::min(dt, largest_growth * last_dt) : first_step_share * dt;
+    if (time_.min_step && dt < *time_.min_step && last_dt > 0) {
+      throw NumericalError("the stable time step " + number_text(dt) + " at time " + number_text(now) +
+                           " is below time.min_step " + number_text(*time_.min_step));
+    }
+    until = std::min(left, next_output() > now ? next_output() - now : left);
+  }
+  if (dt >= until * (1 - time_slack)) return until;
+  // Two equal steps rather than a long and a tiny one.
+  return !time_.step && dt > 0.5 * until ? 0.5 * until : dt;
+}
+
+bool TimeControl::finished(double now) const { return now >= time_.end * (1 - 1e-12); }
+
+bool TimeControl::output_due(double now) {
+  const double slack = time_slack * time_.step.value_or(time_.end * 1e-6);
+  bool due = false;
+  while (next_output() <= now + slack) {
+    ++outputs_done_;
+    due = true;
+  }
+  return due;
+}
+
+}  // namespace quicksand

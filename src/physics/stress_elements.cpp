@@ -1,0 +1,102 @@
+#include "physics/stress_elements.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quicksand {
+
+namespace {
+
+bool stiff(const Rheology& r) { return r.viscosity > 0 || r.yield_stress * r.regularization > 0; }
+
+/// Law of an element from the composition of its corners.
+template <int Dim>
+Rheology mix(const DualElement<Dim>& e, const std::vector<Species>& species, const std::vector<Rheology>& pure,
+             const Fractions& phi, double total) {
+  Rheology mixed;
+  double alpha_sum = 0;
+  for (std::size_t s = 0; s < species.size(); ++s) {
+    double part = 0;
+    for (const Cell c : e.corner) part += phi[s][c];
+    const double composition = std::clamp(part / total, 0.0, 1.0);
+    const Concentration& k = species[s].concentration;
+    const double yield = pure[s].yield_stress * concentration_factor(k.yield_exponent, composition);
+    mixed.viscosity += pure[s].viscosity * concentration_factor(k.viscosity_exponent, composition);
+    mixed.yield_stress += yield;
+    alpha_sum += yield * pure[s].regularization;
+  }
+  mixed.regularization = mixed.yield_stress > 0 ? alpha_sum / mixed.yield_stress : 0.0;
+  return mixed;
+}
+
+/// Calls body(neighbour) for the up to 3^Dim - 1 elements around node n that belong to the domain.
+template <int Dim, class Body>
+void for_each_neighbour(const Grid<Dim>& grid, Node n, const Index<Dim>& i, Body&& body) {
+  constexpr int block = Dim == 2 ? 9 : 27;
+  for (int k = 0; k < block; ++k) {
+    Node m = n;
+    bool inside = true;
+    int rest = k;
+    for (int d = 0; d < Dim; ++d) {
+      const int shift = rest % 3 - 1;
+      rest /= 3;
+      inside = inside && i[d] + shift >= 0 && i[d] + shift <= grid.owned_cells()[d];
+      m = m + shift * grid.step(d);
+    }
+    if (inside && !(m == n)) body(m);
+  }
+}
+
+}  // namespace
+
+double concentration_factor(double kappa, double c) {
+  return std::abs(kappa) < 1e-12 ? c : std::expm1(kappa * c) / std::expm1(kappa);
+}
+
+template <int Dim>
+bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>& species, const Fractions& phi,
+                          const CellField& total, StressElements<Dim>& elements) {
+  std::vector<Rheology> pure;
+  for (const Species& s : species) pure.push_back(rheology(s.law));
+  elements.active.fill(0);
+  if (std::none_of(pure.begin(), pure.end(), stiff)) return false;
+
+  const Grid<Dim>& grid = domain.grid;
+  const Layout<Dim>& layout = domain.layout();
+  NodeField& liquid = elements.share;  // volume of liquid first, then share
+  for_each_indexed<Node>(layout, grid.nodes(), [&](Node n, const Index<Dim>& i) {
+    const DualElement<Dim> e = elements.mesh.element(n, i);
+    double whole = 0;
+    bool empty = false;
+    for (const Cell c : e.corner) {
+      whole += total[c];
+      empty = empty || total[c] < empty_fraction;
+    }
+    liquid[n] = whole / corner_count<Dim> * e.volume();
+    if (empty) return;
+    elements.rheology[n] = mix(e, species, pure, phi, whole);
+    elements.active[n] = stiff(elements.rheology[n]) ? 1 : 0;
+  });
+  // An inactive element leaves each active neighbour an equal part of its liquid.
+  NodeField& part = elements.part;
+  for_each_indexed<Node>(layout, grid.nodes(), [&](Node n, const Index<Dim>& i) {
+    part[n] = 0;
+    if (elements.active[n] || !(liquid[n] > 0)) return;
+    int heirs = 0;
+    for_each_neighbour(grid, n, i, [&](Node m) { heirs += elements.active[m]; });
+    if (heirs > 0) part[n] = liquid[n] / heirs;
+  });
+  for_each_indexed<Node>(layout, grid.nodes(), [&](Node n, const Index<Dim>& i) {
+    if (!elements.active[n]) return;
+    for_each_neighbour(grid, n, i, [&](Node m) { liquid[n] += part[m]; });
+    elements.share[n] = liquid[n] / elements.mesh.element(n, i).volume();
+  });
+  return sum<Node>(layout, grid.nodes(), [&](Node n) { return elements.active[n] ? 1.0 : 0.0; }) > 0;
+}
+
+template bool mark_stress_elements(const Domain<2>&, const std::vector<Species>&, const Fractions&, const CellField&,
+                                   StressElements<2>&);
+template bool mark_stress_elements(const Domain<3>&, const std::vector<Species>&, const Fractions&, const CellField&,
+                                   StressElements<3>&);
+
+}  // namespace quicksand

@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// The elements that carry stress: where, of which law, and for how much liquid.
+#include <vector>
+
+#include "core/domain.hpp"
+#include "physics/dual_element.hpp"
+#include "physics/mixture.hpp"
+
+namespace quicksand {
+
+/// One entry per node of the grid, that is, per element of the dual mesh.
+template <int Dim>
+struct StressElements {
+  DualMesh<Dim> mesh;
+  NodeMask active;                 ///< carries stress
+  Field<Node, Rheology> rheology;  ///< of active elements
+  NodeField share;                 ///< liquid an active element stands for, as a part of its volume
+  NodeField part;                  ///< liquid that an inactive element leaves to each active neighbour
+
+  explicit StressElements(const Domain<Dim>& domain)
+      : mesh(domain), active(domain.layout()), rheology(domain.layout()), share(domain.layout()), part(domain.layout()) {}
+};
+
+/// The factor of (43b): (exp(kappa c) - 1) / (exp(kappa) - 1), c for kappa = 0.
+double concentration_factor(double kappa, double c);
+
+/// Finds the active elements, their rheology and their shares for the given fractions.
+///
+/// The law of an element follows from the mean composition c_i = phi_i / sum phi of its corner cells: viscosities and yield
+/// stresses of all species, each times (43b), add up; alpha is their mean weighted by yield stress. Elements with an empty
+/// corner, or whose law is inviscid, are inactive: their velocity gradient would mean nothing. The liquid in them is shared
+/// out among the active elements around them, so that the shares add up to the liquid's volume and a body keeps its strength
+/// up to its surface.
+/// \returns whether any element is active
+template <int Dim>
+bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>& species, const Fractions& phi,
+                          const CellField& total, StressElements<Dim>& elements);
+
+}  // namespace quicksand

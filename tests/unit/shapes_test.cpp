@@ -1,0 +1,142 @@
+// Volume fractions of shapes against exact areas and volumes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/shapes.hpp"
+
+namespace quicksand {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+std::vector<double> uniform(double from, double to, int cells) {
+  std::vector<double> faces;
+  for (int i = 0; i <= cells; ++i) faces.push_back(from + (to - from) * i / cells);
+  return faces;
+}
+
+Grid<2> plane(Geometry geometry, int n = 13) {
+  return Grid<2>({uniform(geometry == Geometry::axisymmetric ? 0 : -1, 1, n), uniform(-1, 1, n + 2)}, geometry);
+}
+
+Grid<3> cube(int n = 9) {
+  return Grid<3>({uniform(-1, 1, n), uniform(-1, 1, n + 1), uniform(-1, 1, n + 2)}, Geometry::cartesian);
+}
+
+/// Volume of a shape on a grid (per radian in axisymmetric grids); checks that every fraction is within [0, 1].
+template <int Dim>
+double volume(const Shape& shape, const Grid<Dim>& grid) {
+  CellField phi(grid.layout());
+  for_each_indexed<Cell>(grid.layout(), grid.cells(),
+                         [&](Cell c, const Index<Dim>& i) { phi[c] = fraction(shape, grid, i); });
+  const auto outside = [&](Cell c) { return phi[c] < 0 || phi[c] > 1 ? 1.0 : 0.0; };
+  EXPECT_EQ(sum<Cell>(grid.layout(), grid.cells(), outside), 0);
+  return sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return phi[c] * grid.volume(c); });
+}
+
+TEST(Shapes, PlanarAreas) {
+  const Grid<2> grid = plane(Geometry::planar);
+  EXPECT_NEAR(volume(BoxShape{Vec<3>{{-0.33, 0, -0.21}}, Vec<3>{{0.5, 0, 0.77}}}, grid), 0.83 * 0.98, 1e-13);
+  EXPECT_NEAR(volume(LayerShape{-0.5, 0.123}, grid), 2 * 0.623, 1e-13);
+  EXPECT_NEAR(volume(CylinderShape{Vec<3>{{0.1, 9, -0.5}}, 0.3, 0.7}, grid), 0.6 * 0.7, 1e-13);
+  EXPECT_NEAR(volume(SphereShape{Vec<3>{{0.1, 9, -0.05}}, 0.61}, grid), pi * 0.61 * 0.61, 1e-12);
+  EXPECT_NEAR(volume(PolygonShape{{{-0.5, -0.5}, {0.6, -0.4}, {0.1, 0.7}}}, grid), 0.5 * (1.1 * 1.2 - 0.6 * 0.1),
+              1e-13);
+  EXPECT_NEAR(volume(PolygonShape{{{0.1, 0.7}, {0.6, -0.4}, {-0.5, -0.5}}}, grid), 0.63, 1e-13) << "clockwise";
+  EXPECT_NEAR(volume(HalfSpaceShape{Vec<3>{{0, 0, 0.2}}, Vec<3>{{0, 0, 3}}}, grid), 2 * 1.2, 1e-13);
+  EXPECT_NEAR(volume(HalfSpaceShape{Vec<3>{{0, 0, 0}}, Vec<3>{{1, 7, -2}}}, grid), 2, 1e-13);
+}
+
+TEST(Shapes, ConcavePolygon) {
+  // A square with a notch that reaches its middle; a cell may see two separate parts.
+  const PolygonShape notched{{{-0.7, -0.7}, {0.7, -0.7}, {0.7, 0.7}, {0, 0}, {-0.7, 0.7}}};
+  EXPECT_NEAR(volume(notched, plane(Geometry::planar, 5)), 1.4 * 1.4 * 0.75, 1e-13);
+}
+
+TEST(Shapes, AxisymmetricVolumesPerRadian) {
+  const Grid<2> grid = plane(Geometry::axisymmetric);
+  EXPECT_NEAR(volume(CylinderShape{Vec<3>{{0, 0, -0.5}}, 0.33, 0.7}, grid), 0.33 * 0.33 / 2 * 0.7, 1e-14);
+  EXPECT_NEAR(volume(SphereShape{Vec<3>{{0, 0, 0.1}}, 0.77}, grid), 2 * std::pow(0.77, 3) / 3, 1e-13);
+  EXPECT_NEAR(volume(BoxShape{Vec<3>{{0.2, 0, -0.3}}, Vec<3>{{0.5, 0, 0.4}}}, grid), (0.25 - 0.04) / 2 * 0.7, 1e-14);
+  EXPECT_NEAR(volume(LayerShape{-0.5, 0.123}, grid), 0.5 * 0.623, 1e-13);
+  // A cone of radius 0.6 and height 0.9.
+  EXPECT_NEAR(volume(PolygonShape{{{0, 0}, {0.6, 0}, {0, 0.9}}}, grid), 0.36 * 0.9 / 6, 1e-14);
+  // Below z = r: the integral of r (r + 1) dr.
+  EXPECT_NEAR(volume(HalfSpaceShape{Vec<3>{{0, 0, 0}}, Vec<3>{{-1, 0, 1}}}, grid), 1.0 / 3 + 0.5, 1e-13);
+}
+
+TEST(Shapes, VolumesInSpace) {
+  const Grid<3> grid = cube();
+  EXPECT_NEAR(volume(BoxShape{Vec<3>{{-0.3, -0.2, -0.1}}, Vec<3>{{0.5, 0.6, 0.7}}}, grid), 0.512, 1e-13);
+  EXPECT_NEAR(volume(CylinderShape{Vec<3>{{0.1, -0.1, -0.5}}, 0.37, 0.9}, grid), pi * 0.37 * 0.37 * 0.9, 1e-12);
+  EXPECT_NEAR(volume(SphereShape{Vec<3>{{0.1, -0.1, 0.05}}, 0.71}, grid), 4 * pi / 3 * std::pow(0.71, 3), 1e-6);
+  EXPECT_NEAR(volume(PolygonShape{{{0, 0}, {0.6, 0}, {0, 0.9}}}, grid), 2 * 0.27, 1e-13);
+  EXPECT_NEAR(volume(HalfSpaceShape{Vec<3>{{0, 0, 0}}, Vec<3>{{1, 2, 3}}}, grid), 4, 1e-12);
+  // The corner x + y + z <= -2 of the cube is a tetrahedron with legs 1.
+  EXPECT_NEAR(volume(HalfSpaceShape{Vec<3>{{-1, -1, 0}}, Vec<3>{{1, 1, 1}}}, grid), 1.0 / 6, 1e-13);
+  EXPECT_NEAR(volume(LayerShape{-0.5, 0.123}, grid), 4 * 0.623, 1e-13);
+}
+
+TEST(Shapes, QuarterCylinderCrossesPlanesOfSymmetry) {
+  const Grid<3> quarter({uniform(0, 0.5, 16), uniform(0, 0.5, 16), uniform(0, 1.5, 48)}, Geometry::cartesian);
+  EXPECT_NEAR(volume(CylinderShape{Vec<3>{{0, 0, 0}}, 0.25, 1}, quarter), pi / 64, 1e-13);
+}
+
+TEST(Shapes, Waves) {
+  const double k = pi;
+  const WaveShape below{-1.0, std::nullopt, 0.1, 0.05, k};
+  const WaveShape above{std::nullopt, 1.0, 0.1, 0.05, k};
+  const Grid<2> planar = plane(Geometry::planar);
+  EXPECT_NEAR(volume(below, planar), 2 * 1.1 + 0.1 * std::sin(k) / k, 1e-6);
+  EXPECT_NEAR(volume(below, planar) + volume(above, planar), 4, 1e-12);
+  // Integral of r J0(k r) = r J1(k r)/k.
+  EXPECT_NEAR(volume(below, plane(Geometry::axisymmetric)), 1.1 / 2 + 0.05 * std::cyl_bessel_j(1, k) / k, 1e-6);
+  EXPECT_NEAR(volume(below, cube()), 4 * 1.1, 1e-6);
+}
+
+TEST(Shapes, CellsOnAFaceAreFullOrEmpty) {
+  const Grid<2> grid({uniform(0, 0.5, 16), uniform(0, 1.5, 48)}, Geometry::axisymmetric);
+  const Shape slug = CylinderShape{Vec<3>{{0, 0, 0}}, 0.25, 1};
+  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell, const Index<2>& i) {
+    EXPECT_EQ(fraction(slug, grid, i), i[0] < 8 && i[1] < 32 ? 1.0 : 0.0);
+  });
+}
+
+TEST(Shapes, DiscWithinOneCell) {
+  const Extent cell{Vec<3>{{-1, 0, -1}}, Vec<3>{{1, 1, 1}}};
+  EXPECT_NEAR(fraction(SphereShape{Vec<3>{{0.2, 0, 0.1}}, 0.05}, cell, Geometry::planar), pi * 0.0025 / 4, 1e-14);
+  const Extent corner{Vec<3>{{0, 0, 0}}, Vec<3>{{1, 1, 1}}};
+  EXPECT_NEAR(fraction(SphereShape{Vec<3>{{0, 0, 0}}, 1}, corner, Geometry::planar), pi / 4, 1e-14);
+  EXPECT_NEAR(fraction(SphereShape{Vec<3>{{0, 0, 0}}, 1}, corner, Geometry::cartesian), pi / 6, 1e-5);
+}
+
+TEST(Shapes, BoundsAndContains) {
+  const Shape disc = SphereShape{Vec<3>{{0.5, 0, 0.5}}, 0.25};
+  EXPECT_EQ(bounds(disc, Geometry::planar).low[0], 0.25);
+  EXPECT_TRUE(contains(disc, Vec<3>{{0.5, 7, 0.7}}, Geometry::planar)) << "y plays no part in two dimensions";
+  EXPECT_FALSE(contains(disc, Vec<3>{{0.5, 7, 0.7}}, Geometry::cartesian));
+  EXPECT_TRUE(std::isinf(bounds(LayerShape{0, 1}, Geometry::planar).low[0]));
+  EXPECT_EQ(bounds(HalfSpaceShape{Vec<3>{{0, 0, 0.3}}, Vec<3>{{0, 0, 2}}}, Geometry::planar).high[2], 0.3);
+}
+
+TEST(Shapes, Overlap) {
+  const Extent domain{Vec<3>{{0, 0, 0}}, Vec<3>{{1, 1, 1}}};
+  const Shape low = LayerShape{0, 0.5};
+  const auto overlaps = [&](const Shape& a, const Shape& b, Geometry geometry = Geometry::planar) {
+    return overlap(a, b, domain, geometry);
+  };
+  EXPECT_FALSE(overlaps(low, LayerShape{0.5, 1}));
+  EXPECT_TRUE(overlaps(low, LayerShape{0.4999, 1}));
+  EXPECT_TRUE(overlaps(low, SphereShape{Vec<3>{{0.5, 0, 0.7}}, 0.21}));
+  EXPECT_FALSE(overlaps(low, SphereShape{Vec<3>{{0.5, 0, 0.75}}, 0.25}));
+  // Bounding boxes meet, discs do not.
+  EXPECT_FALSE(overlaps(SphereShape{Vec<3>{{0.25, 0, 0.25}}, 0.25}, SphereShape{Vec<3>{{0.65, 0, 0.65}}, 0.25}));
+  EXPECT_FALSE(overlaps(WaveShape{0.0, std::nullopt, 0.5, 0.1, 3.14}, WaveShape{std::nullopt, 1.0, 0.5, 0.1, 3.14}));
+  EXPECT_TRUE(overlaps(low, BoxShape{Vec<3>{{0.2, 0.2, 0.2}}, Vec<3>{{0.21, 0.21, 0.21}}}, Geometry::cartesian));
+  EXPECT_FALSE(overlaps(PolygonShape{{{0, 0}, {1, 0}, {0, 1}}}, PolygonShape{{{1, 0}, {1, 1}, {0, 1}}}));
+}
+
+}  // namespace
+}  // namespace quicksand
