@@ -11,7 +11,7 @@ namespace quicksand {
 /// Volume fractions phi_i, one field per species.
 using Fractions = std::vector<CellField>;
 
-/// Cells with a smaller total fraction count as empty: they carry no stress and bound no velocity slope.
+/// Cells with a smaller total fraction count as empty: they bound neither velocity slopes nor the time step.
 inline constexpr double empty_fraction = 0.01;
 
 /// total = sum of phi_i in all cells, ghosts included.

@@ -70,7 +70,7 @@ bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>&
     bool empty = false;
     for (const Cell c : e.corner) {
       whole += total[c];
-      empty = empty || total[c] < empty_fraction;
+      empty = empty || total[c] < stressless_fraction;
     }
     liquid[n] = whole / corner_count<Dim> * e.volume();
     if (empty) return;

@@ -110,6 +110,13 @@ template <class At, int Dim, class Vector, class Apply, class Precondition, clas
     return report;
   }
 
+  if (!(target > 0)) {
+    // Nothing but x = 0 reaches such a target.
+    combine<At>(layout, box, x, b, [](double& xi, double) { xi = 0; });
+    report.converged = true;
+    return report;
+  }
+
   Vector r(layout), z(layout), p(layout), q(layout);
   const auto update_residual = [&] {
     apply(x, r);

@@ -97,13 +97,19 @@ using HypreIndex = std::array<HYPRE_Int, 3>;
 
 }  // namespace
 
+bool pfmg_suits_27_points() { return HYPRE_RELEASE_NUMBER >= 30000; }
+
 template <int Dim, class At>
 struct Multigrid<Dim, At>::Hierarchy {
-  Hierarchy(const StencilMatrix<Dim, At>& matrix, MultigridKind kind_in)
-      : layout(matrix.layout), box(matrix.box), kind(kind_in), axes(box), values(static_cast<std::size_t>(box.size())) {
+  Hierarchy(const StencilMatrix<Dim, At>& matrix, MultigridKind kind)
+      : layout_(matrix.layout),
+        box_(matrix.box),
+        kind_(kind),
+        axes_(box_),
+        values_(static_cast<std::size_t>(box_.size())) {
     Session::ensure();
     HYPRE_ClearAllErrors();
-    for (std::size_t d = 0; d < axes.count; ++d) high[d] = box.extent(axes.axis[d]) - 1;
+    for (std::size_t d = 0; d < axes_.count; ++d) high_[d] = box_.extent(axes_.axis[d]) - 1;
     try {
       create_grid();
       create_matrix(matrix);
@@ -120,74 +126,75 @@ struct Multigrid<Dim, At>::Hierarchy {
 
   void cycle(const Field<At>& r, Field<At>& z) {
     pack(r);
-    HYPRE_StructVectorSetBoxValues(right_hand_side, low.data(), high.data(), values.data());
-    if (kind == MultigridKind::pfmg) {
-      HYPRE_StructPFMGSolve(solver, operator_, right_hand_side, solution);
+    HYPRE_StructVectorSetBoxValues(right_hand_side_, low_.data(), high_.data(), values_.data());
+    if (kind_ == MultigridKind::pfmg) {
+      HYPRE_StructPFMGSolve(solver_, operator_, right_hand_side_, solution_);
     } else {
-      HYPRE_StructSMGSolve(solver, operator_, right_hand_side, solution);
+      HYPRE_StructSMGSolve(solver_, operator_, right_hand_side_, solution_);
     }
-    HYPRE_StructVectorGetBoxValues(solution, low.data(), high.data(), values.data());
+    HYPRE_StructVectorGetBoxValues(solution_, low_.data(), high_.data(), values_.data());
     check_and_clear("multigrid cycle");
     unpack(z);
   }
 
  private:
   void create_grid() {
-    HYPRE_StructGridCreate(self_communicator, static_cast<HYPRE_Int>(axes.count), &grid);
-    HYPRE_StructGridSetExtents(grid, low.data(), high.data());
-    HYPRE_StructGridAssemble(grid);
-    check_and_clear("grid");
+    HYPRE_StructGridCreate(self_communicator, static_cast<HYPRE_Int>(axes_.count), &grid_);
+    HYPRE_StructGridSetExtents(grid_, low_.data(), high_.data());
+    HYPRE_StructGridAssemble(grid_);
+    check_and_clear("grid_");
   }
 
   void create_matrix(const StencilMatrix<Dim, At>& matrix) {
-    // Entry 0 is the diagonal, then the lower couplings within the axes seen; symmetric storage implies the upper ones.
+    // Entry 0 is the diagonal, then the lower couplings within the axes_ seen; symmetric storage implies the upper
+    // ones.
     std::vector<HypreIndex> shape(1, HypreIndex{});
     std::vector<const Field<At>*> coefficient(1, &matrix.diagonal);
     for (std::size_t e = 0; e < matrix.offsets.size(); ++e) {
       HypreIndex offset{};
       int moves = 0;
       for (int d = 0; d < Dim; ++d) moves += matrix.offsets[e][d] != 0 ? 1 : 0;
-      for (std::size_t d = 0; d < axes.count; ++d) {
-        offset[d] = matrix.offsets[e][axes.axis[d]];
+      for (std::size_t d = 0; d < axes_.count; ++d) {
+        offset[d] = matrix.offsets[e][axes_.axis[d]];
         moves -= offset[d] != 0 ? 1 : 0;
       }
       if (moves != 0) continue;
       shape.push_back(offset);
       coefficient.push_back(&matrix.lower[e]);
     }
-    HYPRE_StructStencilCreate(static_cast<HYPRE_Int>(axes.count), static_cast<HYPRE_Int>(shape.size()), &stencil);
+    HYPRE_StructStencilCreate(static_cast<HYPRE_Int>(axes_.count), static_cast<HYPRE_Int>(shape.size()), &stencil_);
     for (std::size_t k = 0; k < shape.size(); ++k) {
-      HYPRE_StructStencilSetElement(stencil, static_cast<HYPRE_Int>(k), shape[k].data());
+      HYPRE_StructStencilSetElement(stencil_, static_cast<HYPRE_Int>(k), shape[k].data());
     }
-    HYPRE_StructMatrixCreate(self_communicator, grid, stencil, &operator_);
+    HYPRE_StructMatrixCreate(self_communicator, grid_, stencil_, &operator_);
     HYPRE_StructMatrixSetSymmetric(operator_, 1);
     HYPRE_StructMatrixInitialize(operator_);
     for (std::size_t k = 0; k < shape.size(); ++k) {
       pack(*coefficient[k]);
       drop_couplings_out_of_the_box(shape[k]);
       HYPRE_Int entry = static_cast<HYPRE_Int>(k);
-      HYPRE_StructMatrixSetBoxValues(operator_, low.data(), high.data(), 1, &entry, values.data());
+      HYPRE_StructMatrixSetBoxValues(operator_, low_.data(), high_.data(), 1, &entry, values_.data());
     }
     HYPRE_StructMatrixAssemble(operator_);
     check_and_clear("matrix");
   }
 
-  /// A coupling that leads out of the box must be zero, or the coarse matrices are wrong next to it.
+  /// A coupling that leads out of the box_ must be zero, or the coarse matrices are wrong next to it.
   void drop_couplings_out_of_the_box(const HypreIndex& offset) {
     std::size_t n = 0;
     const Index<Dim> extent = extents();
     for_each_packed([&](const Index<Dim>& i) {
-      for (std::size_t d = 0; d < axes.count; ++d) {
-        const int to = i[axes.axis[d]] + static_cast<int>(offset[d]);
-        if (to < 0 || to >= extent[axes.axis[d]]) values[n] = 0;
+      for (std::size_t d = 0; d < axes_.count; ++d) {
+        const int to = i[axes_.axis[d]] + static_cast<int>(offset[d]);
+        if (to < 0 || to >= extent[axes_.axis[d]]) values_[n] = 0;
       }
       ++n;
     });
   }
 
   void create_vectors() {
-    for (HYPRE_StructVector* vector : {&right_hand_side, &solution}) {
-      HYPRE_StructVectorCreate(self_communicator, grid, vector);
+    for (HYPRE_StructVector* vector : {&right_hand_side_, &solution_}) {
+      HYPRE_StructVectorCreate(self_communicator, grid_, vector);
       HYPRE_StructVectorInitialize(*vector);
       HYPRE_StructVectorSetConstantValues(*vector, 0.0);
       HYPRE_StructVectorAssemble(*vector);
@@ -196,71 +203,71 @@ struct Multigrid<Dim, At>::Hierarchy {
   }
 
   void create_solver(Stencil stencil_kind) {
-    if (kind == MultigridKind::pfmg) {
-      // Red-black relaxation keeps a star stencil on all levels; on box stencils hypre 2.26 writes beyond an array with
-      // it.
+    if (kind_ == MultigridKind::pfmg) {
+      // Red-black relaxation keeps a star stencil_ on all levels; on box_ stencils hypre 2.26 writes beyond an array
+      // with it.
       const HYPRE_Int relaxation = stencil_kind == Stencil::star ? 2 : 1;
-      HYPRE_StructPFMGCreate(self_communicator, &solver);
-      HYPRE_StructPFMGSetMaxIter(solver, 1);
-      HYPRE_StructPFMGSetTol(solver, 0.0);
-      HYPRE_StructPFMGSetZeroGuess(solver);
-      HYPRE_StructPFMGSetRelaxType(solver, relaxation);
-      HYPRE_StructPFMGSetNumPreRelax(solver, 1);
-      HYPRE_StructPFMGSetNumPostRelax(solver, 1);
-      HYPRE_StructPFMGSetLogging(solver, 0);
-      HYPRE_StructPFMGSetPrintLevel(solver, 0);
-      HYPRE_StructPFMGSetup(solver, operator_, right_hand_side, solution);
+      HYPRE_StructPFMGCreate(self_communicator, &solver_);
+      HYPRE_StructPFMGSetMaxIter(solver_, 1);
+      HYPRE_StructPFMGSetTol(solver_, 0.0);
+      HYPRE_StructPFMGSetZeroGuess(solver_);
+      HYPRE_StructPFMGSetRelaxType(solver_, relaxation);
+      HYPRE_StructPFMGSetNumPreRelax(solver_, 1);
+      HYPRE_StructPFMGSetNumPostRelax(solver_, 1);
+      HYPRE_StructPFMGSetLogging(solver_, 0);
+      HYPRE_StructPFMGSetPrintLevel(solver_, 0);
+      HYPRE_StructPFMGSetup(solver_, operator_, right_hand_side_, solution_);
       check_and_clear("set-up of PFMG");
     } else {
-      HYPRE_StructSMGCreate(self_communicator, &solver);
-      HYPRE_StructSMGSetMemoryUse(solver, 0);
-      HYPRE_StructSMGSetMaxIter(solver, 1);
-      HYPRE_StructSMGSetTol(solver, 0.0);
-      HYPRE_StructSMGSetZeroGuess(solver);
-      HYPRE_StructSMGSetNumPreRelax(solver, 1);
-      HYPRE_StructSMGSetNumPostRelax(solver, 1);
-      HYPRE_StructSMGSetLogging(solver, 0);
-      HYPRE_StructSMGSetPrintLevel(solver, 0);
-      HYPRE_StructSMGSetup(solver, operator_, right_hand_side, solution);
+      HYPRE_StructSMGCreate(self_communicator, &solver_);
+      HYPRE_StructSMGSetMemoryUse(solver_, 0);
+      HYPRE_StructSMGSetMaxIter(solver_, 1);
+      HYPRE_StructSMGSetTol(solver_, 0.0);
+      HYPRE_StructSMGSetZeroGuess(solver_);
+      HYPRE_StructSMGSetNumPreRelax(solver_, 1);
+      HYPRE_StructSMGSetNumPostRelax(solver_, 1);
+      HYPRE_StructSMGSetLogging(solver_, 0);
+      HYPRE_StructSMGSetPrintLevel(solver_, 0);
+      HYPRE_StructSMGSetup(solver_, operator_, right_hand_side_, solution_);
       check_and_clear("set-up of SMG");
     }
   }
 
   void destroy() {
-    if (solver != nullptr) {
-      kind == MultigridKind::pfmg ? HYPRE_StructPFMGDestroy(solver) : HYPRE_StructSMGDestroy(solver);
+    if (solver_ != nullptr) {
+      kind_ == MultigridKind::pfmg ? HYPRE_StructPFMGDestroy(solver_) : HYPRE_StructSMGDestroy(solver_);
     }
-    if (solution != nullptr) HYPRE_StructVectorDestroy(solution);
-    if (right_hand_side != nullptr) HYPRE_StructVectorDestroy(right_hand_side);
+    if (solution_ != nullptr) HYPRE_StructVectorDestroy(solution_);
+    if (right_hand_side_ != nullptr) HYPRE_StructVectorDestroy(right_hand_side_);
     if (operator_ != nullptr) HYPRE_StructMatrixDestroy(operator_);
-    if (stencil != nullptr) HYPRE_StructStencilDestroy(stencil);
-    if (grid != nullptr) HYPRE_StructGridDestroy(grid);
+    if (stencil_ != nullptr) HYPRE_StructStencilDestroy(stencil_);
+    if (grid_ != nullptr) HYPRE_StructGridDestroy(grid_);
     HYPRE_ClearAllErrors();
   }
 
   Index<Dim> extents() const {
     Index<Dim> n;
-    for (int d = 0; d < Dim; ++d) n[d] = box.extent(d);
+    for (int d = 0; d < Dim; ++d) n[d] = box_.extent(d);
     return n;
   }
 
-  /// Calls body with the index in the box, in the order of `values`.
+  /// Calls body with the index in the box_, in the order of `values_`.
   template <class Body>
   void for_each_packed(Body&& body) const {
     const Index<Dim> extent = extents();
     Index<Dim> i;
-    for (std::size_t n = 0; n < values.size(); ++n) {
+    for (std::size_t n = 0; n < values_.size(); ++n) {
       body(i);
       for (int d = 0; d < Dim && ++i[d] == extent[d]; ++d) i[d] = 0;
     }
   }
 
-  /// Copies rows between a field and the gapless array hypre takes: axes of one cell vanish by themselves.
+  /// Copies rows between a field and the gapless array hypre takes: axes_ of one cell vanish by themselves.
   template <class FieldType, class Copy>
   void for_each_row(FieldType& field, Copy&& copy) {
-    const detail::Rows<Dim> rows(layout, box);
+    const detail::Rows<Dim> rows(layout_, box_);
     for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
-      copy(&field[At{rows.start(r)}], values.data() + r * rows.length, rows.length);
+      copy(&field[At{rows.start(r)}], values_.data() + r * rows.length, rows.length);
     }
   }
   void pack(const Field<At>& field) {
@@ -270,19 +277,19 @@ struct Multigrid<Dim, At>::Hierarchy {
     for_each_row(field, [](double* to, const double* from, int n) { std::copy_n(from, n, to); });
   }
 
-  Layout<Dim> layout;
-  Box<Dim> box;
-  MultigridKind kind;
-  SeenAxes<Dim> axes;
-  std::vector<double> values;
-  HypreIndex low{};
-  HypreIndex high{};
-  HYPRE_StructGrid grid = nullptr;
-  HYPRE_StructStencil stencil = nullptr;
+  Layout<Dim> layout_;
+  Box<Dim> box_;
+  MultigridKind kind_;
+  SeenAxes<Dim> axes_;
+  std::vector<double> values_;
+  HypreIndex low_{};
+  HypreIndex high_{};
+  HYPRE_StructGrid grid_ = nullptr;
+  HYPRE_StructStencil stencil_ = nullptr;
   HYPRE_StructMatrix operator_ = nullptr;
-  HYPRE_StructVector right_hand_side = nullptr;
-  HYPRE_StructVector solution = nullptr;
-  HYPRE_StructSolver solver = nullptr;
+  HYPRE_StructVector right_hand_side_ = nullptr;
+  HYPRE_StructVector solution_ = nullptr;
+  HYPRE_StructSolver solver_ = nullptr;
 };
 
 template <int Dim, class At>

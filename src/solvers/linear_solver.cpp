@@ -22,27 +22,31 @@ bool is_singular(const StencilMatrix<Dim, At>& matrix) {
   return diagonal > 0 && coupled_sum([&](At p) { return std::abs(matrix.row_sum(p)); }) <= round_off * diagonal;
 }
 
+/// x -= constant on the coupled rows.
 template <int Dim, class At>
-void remove_mean(const StencilMatrix<Dim, At>& matrix, Field<At>& x) {
-  const double count = sum<At>(matrix.layout, matrix.box, [&](At p) { return matrix.uncoupled(p) ? 0.0 : 1.0; });
-  const double mean =
-      sum<At>(matrix.layout, matrix.box, [&](At p) { return matrix.uncoupled(p) ? 0.0 : x[p]; }) / count;
-  for_each<At>(matrix.layout, matrix.box, [&](At p) { x[p] -= matrix.uncoupled(p) ? 0.0 : mean; });
+void subtract(const StencilMatrix<Dim, At>& matrix, double constant, Field<At>& x) {
+  for_each<At>(matrix.layout, matrix.box, [&](At p) { x[p] -= matrix.uncoupled(p) ? 0.0 : constant; });
 }
 
-/// Makes a singular matrix definite by doubling one diagonal. The solution for a consistent right-hand side stays the
-/// one that is zero at that point.
 template <int Dim, class At>
-void pin_one_point(StencilMatrix<Dim, At>& matrix) {
+void remove_mean(const StencilMatrix<Dim, At>& matrix, Field<At>& x) {
+  const auto coupled_sum = [&](auto&& f) {
+    return sum<At>(matrix.layout, matrix.box, [&](At p) { return matrix.uncoupled(p) ? 0.0 : f(p); });
+  };
+  subtract(matrix, coupled_sum([&](At p) { return x[p]; }) / coupled_sum([](At) { return 1.0; }), x);
+}
+
+/// The first coupled row of a matrix that has any.
+template <int Dim, class At>
+At first_coupled(const StencilMatrix<Dim, At>& matrix) {
   const detail::Rows<Dim> rows(matrix.layout, matrix.box);
   for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
     for (int i = 0; i < rows.length; ++i) {
       const At p{rows.start(r) + i};
-      if (matrix.uncoupled(p)) continue;
-      matrix.diagonal[p] *= 2;
-      return;
+      if (!matrix.uncoupled(p)) return p;
     }
   }
+  return At{rows.start(0)};
 }
 
 /// One attempt from the guess x. A method that can't be set up counts as not converged.
@@ -103,8 +107,12 @@ SolveReport solve(const StencilMatrix<Dim, At>& matrix, const Field<At>& b, Fiel
     return nothing;
   }
   if (!is_singular(matrix)) return solve_definite(matrix, b, x, options);
+  // Doubling one diagonal makes the matrix definite; for a consistent right-hand side it picks the solution that is
+  // zero at that point. So is the guess made, lest a good one look bad.
   StencilMatrix<Dim, At> pinned = matrix;
-  pin_one_point(pinned);
+  const At pin = first_coupled(matrix);
+  pinned.diagonal[pin] *= 2;
+  subtract(matrix, x[pin], x);
   Field<At> consistent = b;
   remove_mean(matrix, consistent);
   const SolveReport report = solve_definite(pinned, consistent, x, options);

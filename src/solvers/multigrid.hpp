@@ -15,10 +15,14 @@ std::string hypre_version();
 /// SMG: semi-coarsening with plane relaxation, several times dearer; takes any grading.
 enum class MultigridKind { pfmg, smg };
 
+/// Whether PFMG converges well for 27-point matrices: it does from hypre 3 on (hypre 2.26 takes eight times the
+/// iterations).
+bool pfmg_suits_27_points();
+
 /// One multigrid hierarchy of a matrix, to be used as a preconditioner of conjugate gradients.
 ///
 /// The hierarchy holds the matrix as it was when constructed: build a new one when coefficients change (set-up costs
-/// about as much as two cycles). Starts MPI on first use when hypre needs it and nobody did.
+/// two to eight cycles). Starts MPI on first use when hypre needs it and nobody did.
 template <int Dim, class At>
 class Multigrid {
  public:

@@ -37,7 +37,7 @@ class ObstacleSolver {
       : matrix_(matrix),
         layout_(matrix.layout),
         volume_(volume),
-        H_(H),
+        potential_(H),
         max_iterations_(options.max_iterations),
         tolerance_(options.tolerance / 2),
         b_(b) {}
@@ -54,7 +54,7 @@ class ObstacleSolver {
         sweep();
         sweep();
       }
-      matrix_.residual(b_, H_, r_, work_);
+      matrix_.residual(b_, potential_, r_, work_);
       report_.violation = largest_violation();
       if (report_.violation <= tolerance_) {
         report_.active = count_positive();
@@ -77,16 +77,16 @@ class ObstacleSolver {
 
   /// Returns false when H = 0 solves the problem.
   bool check_and_clean() {
-    if (!std::isfinite(total([&](Cell c) { return std::abs(b_[c]) + std::abs(H_[c]); }))) {
+    if (!std::isfinite(total([&](Cell c) { return std::abs(b_[c]) + std::abs(potential_[c]); }))) {
       throw NumericalError("redistribution of volume: a volume fraction or H is not finite");
     }
     for_each<Cell>(layout_, matrix_.box, [&](Cell c) {
       if (std::abs(b_[c]) <= tolerance_ * volume_[c]) b_[c] = 0;
-      H_[c] = std::max(H_[c], 0.0);
+      potential_[c] = std::max(potential_[c], 0.0);
     });
     report_.violation = maximum<Cell>(layout_, matrix_.box, 0, [&](Cell c) { return b_[c] / volume_[c]; });
     report_.trivial = report_.violation <= tolerance_;
-    if (report_.trivial) for_each<Cell>(layout_, matrix_.box, [&](Cell c) { H_[c] = 0; });
+    if (report_.trivial) for_each<Cell>(layout_, matrix_.box, [&](Cell c) { potential_[c] = 0; });
     return !report_.trivial;
   }
 
@@ -116,10 +116,11 @@ class ObstacleSolver {
     r_ = b_;
     set_ = CellMask(layout_, outside);
     reduced_ = StencilMatrix<Dim, Cell>(layout_, Stencil::star);
-    for_each<Cell>(layout_, matrix_.box,
-                   [&](Cell c) { set_[c] = b_[c] > -room_of_full_cells * volume_[c] || H_[c] > 0 ? inside : outside; });
+    for_each<Cell>(layout_, matrix_.box, [&](Cell c) {
+      set_[c] = b_[c] > -room_of_full_cells * volume_[c] || potential_[c] > 0 ? inside : outside;
+    });
     bound_set(matrix_.box);
-    matrix_.residual(b_, H_, r_, work_);
+    matrix_.residual(b_, potential_, r_, work_);
   }
 
   /// Finds the boxes of the set, all of which lies in `where`.
@@ -130,13 +131,13 @@ class ObstacleSolver {
   }
 
   std::ptrdiff_t count_positive() const {
-    return static_cast<std::ptrdiff_t>(total([&](Cell c) { return H_[c] > 0 ? 1.0 : 0.0; }));
+    return static_cast<std::ptrdiff_t>(total([&](Cell c) { return potential_[c] > 0 ? 1.0 : 0.0; }));
   }
 
   double largest_violation() const {
     return maximum<Cell>(layout_, work_, 0, [&](Cell c) {
       const double error = r_[c] / volume_[c];
-      return H_[c] > 0 ? std::abs(error) : error;
+      return potential_[c] > 0 ? std::abs(error) : error;
     });
   }
 
@@ -202,7 +203,7 @@ class ObstacleSolver {
   /// When the excess just fits, H is determined up to a constant: choose it such that its minimum is zero.
   void lift_step() {
     const double lift = maximum<Cell>(layout_, box_, std::numeric_limits<double>::lowest(),
-                                      [&](Cell c) { return -(H_[c] + step_[c]); });
+                                      [&](Cell c) { return -(potential_[c] + step_[c]); });
     for_each<Cell>(layout_, box_, [&](Cell c) { step_[c] += lift; });
   }
 
@@ -214,7 +215,7 @@ class ObstacleSolver {
   }
 
   bool move_along_projected_step() {
-    for_each<Cell>(layout_, box_, [&](Cell c) { step_[c] = std::max(step_[c], -H_[c]); });
+    for_each<Cell>(layout_, box_, [&](Cell c) { step_[c] = std::max(step_[c], -potential_[c]); });
     matrix_.apply(step_, work_vector_, box_);
     const double slope = dot<Cell>(layout_, box_, r_, step_);
     const double curvature = dot<Cell>(layout_, box_, step_, work_vector_);
@@ -227,10 +228,11 @@ class ObstacleSolver {
     if (good && best < 1) length = 1;
     if (best > 1) {
       const double steepest_fall =
-          maximum<Cell>(layout_, box_, 0, [&](Cell c) { return step_[c] < 0 ? -step_[c] / H_[c] : 0.0; });
+          maximum<Cell>(layout_, box_, 0, [&](Cell c) { return step_[c] < 0 ? -step_[c] / potential_[c] : 0.0; });
       length = steepest_fall > 0 ? std::clamp(1 / steepest_fall, 1.0, best) : best;
     }
-    combine<Cell>(layout_, box_, H_, step_, [length](double& h, double d) { h = std::max(h + length * d, 0.0); });
+    combine<Cell>(layout_, box_, potential_, step_,
+                  [length](double& h, double d) { h = std::max(h + length * d, 0.0); });
     return good;
   }
 
@@ -240,9 +242,9 @@ class ObstacleSolver {
       double excess = b_[c];
       for (std::size_t e = 0; e < matrix_.lower.size(); ++e) {
         const Step s = matrix_.steps[e];
-        excess -= matrix_.lower[e][c] * H_[c - s] + matrix_.lower[e][c + s] * H_[c + s];
+        excess -= matrix_.lower[e][c] * potential_[c - s] + matrix_.lower[e][c + s] * potential_[c + s];
       }
-      H_[c] = excess > 0 ? excess / matrix_.diagonal[c] : 0;
+      potential_[c] = excess > 0 ? excess / matrix_.diagonal[c] : 0;
     });
   }
 
@@ -254,8 +256,8 @@ class ObstacleSolver {
     for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
       for (int i = 0; i < rows.length; ++i) {
         const Cell c{rows.start(r) + i};
-        const bool gets_too_much = !(H_[c] > 0) && r_[c] > tolerance_ * volume_[c];
-        const unsigned char now = H_[c] > 0 || gets_too_much ? inside : outside;
+        const bool gets_too_much = !(potential_[c] > 0) && r_[c] > tolerance_ * volume_[c];
+        const unsigned char now = potential_[c] > 0 || gets_too_much ? inside : outside;
         if (gets_too_much) overfull.push_back(c);
         changed = changed || now != set_[c];
         set_[c] = now;
@@ -313,7 +315,7 @@ class ObstacleSolver {
   const StencilMatrix<Dim, Cell>& matrix_;
   const Layout<Dim>& layout_;
   const CellField& volume_;
-  CellField& H_;
+  CellField& potential_;  ///< H
   int max_iterations_;
   double tolerance_;
   CellField b_;

@@ -196,8 +196,8 @@ Method choose_method(const StencilMatrix<Dim, At>& matrix) {
   const Anisotropy shape = anisotropy(star ? matrix : star_part(matrix));
   if (shape.grading > largest_pfmg_grading<Dim>) return Method::smg;
   if (star) return Method::pfmg;
-  // PFMG for 27 points converges slowly in hypre 2.26.
-  return Dim == 2 && shape.aspect <= largest_point_aspect ? Method::pfmg : Method::star_pfmg;
+  const bool points_suit = Dim == 2 || pfmg_suits_27_points();
+  return points_suit && shape.aspect <= largest_point_aspect ? Method::pfmg : Method::star_pfmg;
 }
 
 template <int Dim, class At>

@@ -26,7 +26,7 @@ template <int Dim, class At>
 Method choose_method(const StencilMatrix<Dim, At>& matrix);
 
 /// A symmetric approximation of the inverse of a matrix, to be applied many times. Holds the matrix as it was when
-/// constructed; the set-up is worth about two applications (a factorisation: about half a solve by CG with PFMG).
+/// constructed; the set-up is worth two applications on large grids and eight on small ones.
 template <int Dim, class At>
 class Preconditioner {
  public:

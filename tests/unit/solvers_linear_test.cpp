@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/errors.hpp"
+#include "solvers/multigrid.hpp"
 #include "unit/solvers_problems.hpp"
 
 namespace quicksand {
@@ -77,13 +78,14 @@ TEST(LinearSolver, NinePoints) {
 TEST(LinearSolver, SevenAndTwentySevenPoints) {
   const Grid<3> grid({uniform_axis(20), uniform_axis(20), uniform_axis(24, 0, 1.2)}, Geometry::cartesian);
   expect_solved(cell_laplacian(grid, lower_part(grid)), Method::pfmg, 17);
-  expect_solved(node_laplacian(grid, lower_part(grid)), Method::star_pfmg, 40);
+  expect_solved(node_laplacian(grid, lower_part(grid)), pfmg_suits_27_points() ? Method::pfmg : Method::star_pfmg, 40);
 }
 
 TEST(LinearSolver, OneCellThick) {
   const Grid<3> slice({uniform_axis(64), uniform_axis(1), uniform_axis(96)}, Geometry::cartesian);
   expect_solved(cell_laplacian(slice, lower_part(slice)), Method::pfmg, 14);
-  expect_solved(node_laplacian(slice, lower_part(slice)), Method::star_pfmg, 70);
+  expect_solved(node_laplacian(slice, lower_part(slice)), pfmg_suits_27_points() ? Method::pfmg : Method::star_pfmg,
+                70);
 }
 
 TEST(LinearSolver, SmallSystemsAndLinesAreFactorised) {
@@ -113,6 +115,7 @@ TEST(LinearSolver, AllNeumannSystemsAreMadeConsistent) {
     const SolveReport report = solve(matrix, b, x);
     EXPECT_TRUE(report.converged);
     EXPECT_LE(report.iterations, 18);
+    EXPECT_LE(solve(matrix, b, x).iterations, 1);
     for_each<Cell>(grid.layout(), matrix.box, [&](Cell c) { b[c] -= mean; });
     EXPECT_LT(true_residual(matrix, b, x), 2e-8);
     EXPECT_NEAR(sum<Cell>(grid.layout(), matrix.box, [&](Cell c) { return x[c]; }) / cells, 0, 1e-12);

@@ -25,7 +25,7 @@ def panels(history):
         ("Heights and base radius", pick("height_axis", "height_max", "radius_base"), False),
         ("Largest speed", pick("max_speed", "max_speed_liquid"), False),
         ("Energy", energy, False),
-        ("Time step", pick("dt"), False),
+        ("Time step", {"dt": np.where(history["dt"] > 0, history["dt"], np.nan)} if "dt" in history else {}, False),
         ("Iterations per step", {name.replace("iterations", "").replace("_", " ").strip() or "all": history[name]
                                  for name in iterations}, False),
         ("Relative volume change", drift, True),
@@ -56,10 +56,13 @@ def draw(pyplot, history, title, si_units, path):
         axes.margins(x=0)
         if logarithmic:
             axes.set_yscale("log")
+            axes.set_ylim(5e-17, max(1e-11, 3 * max(np.nanmax(values) for values in curves.values())))
         else:
-            axes.ticklabel_format(axis="y", scilimits=(-3, 4))
+            axes.ticklabel_format(axis="y", scilimits=(-3, 4), useOffset=False)
+            if name in ("Time step", "Iterations per step"):
+                axes.set_ylim(0, 1.15 * max(np.nanmax(values, initial=1e-300) for values in curves.values()))
         if len(curves) > 1:
-            axes.legend(fontsize="small")
+            axes.legend(fontsize="small" if len(curves) < 5 else "x-small")
     for axes in list(grid.flat)[len(drawn):]:
         axes.set_visible(False)
     for n, axes in enumerate(grid.flat):

@@ -21,7 +21,8 @@ RC = {
     "ytick.direction": "in",
     "legend.frameon": False,
     "lines.linewidth": 1.4,
-    "axes.prop_cycle": matplotlib.cycler(color=["#17456b", "#d08a3c", "#4d8f5c", "#8d5a97", "#7d8790"]),
+    "axes.prop_cycle": matplotlib.cycler(color=["#17456b", "#d08a3c", "#4d8f5c", "#8d5a97", "#7d8790", "#b5483f", "#3fa3a8",
+                                               "#a89a2f"]),
 }
 
 

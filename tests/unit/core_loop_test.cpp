@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include "core/field.hpp"
+#include "core/loop.hpp"
+#include "core/threads.hpp"
+#include "support/grids.hpp"
+
+namespace quicksand {
+namespace {
+
+/// Sets a number of threads for one test.
+class Threads {
+ public:
+  explicit Threads(int count) : before_(thread_count()) { set_threads(count); }
+  ~Threads() { set_threads(before_); }
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+ private:
+  int before_;
+};
+
+/// Large enough for loops to use threads.
+const Layout<2> plane(Index<2>{130, 110});
+const Layout<3> space(Index<3>{33, 21, 19});
+
+template <int Dim>
+Box<Dim> owned(const Layout<Dim>& layout) {
+  return {Index<Dim>{}, layout.cells()};
+}
+
+template <int Dim>
+void expect_every_point_once(const Layout<Dim>& layout) {
+  const Threads threads(4);
+  CellField plain(layout), indexed(layout), coloured(layout);
+  const Box<Dim> box = owned(layout);
+  for_each<Cell>(layout, box, [&](Cell c) { plain[c] += 1; });
+  for_each_indexed<Cell>(layout, box,
+                         [&](Cell c, const Index<Dim>& i) { indexed[c] += c.n == layout.flat(i) ? 1 : 5; });
+  for_each_coloured<Cell>(layout, box,
+                          [&](Cell c, const Index<Dim>& i) { coloured[c] += c.n == layout.flat(i) ? 1 : 5; });
+  for (std::ptrdiff_t n = 0; n < layout.size(); ++n) {
+    const double once = box.contains(layout.multi(n)) ? 1 : 0;
+    ASSERT_EQ(plain[Cell{n}], once);
+    ASSERT_EQ(indexed[Cell{n}], once);
+    ASSERT_EQ(coloured[Cell{n}], once);
+  }
+}
+
+TEST(CoreLoop, VisitsEveryPointOfThePlaneOnce) { expect_every_point_once(plane); }
+TEST(CoreLoop, VisitsEveryPointOfSpaceOnce) { expect_every_point_once(space); }
+
+TEST(CoreLoop, EmptyBoxesAreNotVisited) {
+  int visits = 0;
+  const Box<2> flat{{0, 3}, {4, 3}};
+  const Box<2> inverted{{4, 0}, {0, 4}};
+  for (const Box<2>& box : {flat, inverted}) {
+    for_each<Cell>(plane, box, [&](Cell) { ++visits; });
+    for_each_indexed<Cell>(plane, box, [&](Cell, const Index<2>&) { ++visits; });
+    for_each_coloured<Cell>(plane, box, [&](Cell, const Index<2>&) { ++visits; });
+    EXPECT_EQ(sum<Cell>(plane, box, [](Cell) { return 1.0; }), 0);
+  }
+  EXPECT_EQ(visits, 0);
+}
+
+/// Adds a rough number of every cell to all nodes of the cell.
+template <int Dim>
+NodeField scatter(const Layout<Dim>& layout, int thread_number) {
+  const Threads threads(thread_number);
+  NodeField nodes(layout);
+  for_each_coloured<Cell>(layout, owned(layout), [&](Cell c, const Index<Dim>& i) {
+    for (int k = 0; k < (1 << Dim); ++k) {
+      Node n = low_node(c);
+      for (int d = 0; d < Dim; ++d) n = n + ((k >> d) & 1) * layout.step(d);
+      nodes[n] += testing::rough(i, 0.5) / (k + 1);
+    }
+  });
+  return nodes;
+}
+
+template <int Dim>
+void expect_scatter_without_races(const Layout<Dim>& layout) {
+  const NodeField serial = scatter(layout, 1);
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    const NodeField parallel = scatter(layout, 4);
+    for (std::ptrdiff_t n = 0; n < layout.size(); ++n) ASSERT_EQ(serial[Node{n}], parallel[Node{n}]);
+  }
+}
+
+TEST(CoreLoop, ColouredScatterInThePlaneHasNoRaces) { expect_scatter_without_races(plane); }
+TEST(CoreLoop, ColouredScatterInSpaceHasNoRaces) { expect_scatter_without_races(space); }
+
+TEST(CoreLoop, SumsDoNotDependOnTheNumberOfThreads) {
+  CellField f(space);
+  for_each_indexed<Cell>(space, owned(space), [&](Cell c, const Index<3>& i) { f[c] = testing::rough(i, 2); });
+  const auto total = [&](int n) {
+    const Threads threads(n);
+    return sum<Cell>(space, owned(space), [&](Cell c) { return f[c]; });
+  };
+  const double one = total(1);
+  EXPECT_NE(one, 0);
+  EXPECT_EQ(total(2), one);
+  EXPECT_EQ(total(3), one);
+  EXPECT_EQ(total(4), one);
+}
+
+TEST(CoreLoop, MaximumFindsTheLargestAndKeepsTheFloor) {
+  CellField f(plane, -1.0);
+  f[Cell{plane.flat({129, 109})}] = 3;
+  f[Cell{plane.flat({129, 110})}] = 9;  // a ghost cell
+  const auto largest = [&](double floor) {
+    return maximum<Cell>(plane, owned(plane), floor, [&](Cell c) { return f[c]; });
+  };
+  EXPECT_EQ(largest(0), 3);
+  EXPECT_EQ(largest(4), 4);
+}
+
+}  // namespace
+}  // namespace quicksand
