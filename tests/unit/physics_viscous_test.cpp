@@ -1,0 +1,250 @@
+// The functional of viscoplastic diffusion: its gradient, its matrix, and motions that carry no stress.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "physics/viscous_functional.hpp"
+#include "support/mixtures.hpp"
+
+namespace quicksand {
+namespace {
+
+using testing::Mixture;
+
+constexpr double dt = 0.1;
+const Law newtonian = Newtonian{0.7};
+const Law bingham = Papanastasiou{0.05, 0.3, 20};
+
+/// A mixture made ready for the functional.
+template <int Dim>
+struct Setup {
+  Domain<Dim> domain;
+  Mixture<Dim> mixture;
+  DiffusionWork<Dim> work;
+  CellVectors<Dim> u_hat;
+
+  template <class Make>
+  Setup(Domain<Dim> d, const Law& law, Make&& make)
+      : domain(std::move(d)),
+        mixture(make(domain, testing::liquid_species(1.3, law))),
+        work(domain, mixture.species),
+        u_hat(testing::rough_vectors(domain.grid, 40)) {
+    mark_stress_elements(domain, mixture.species, mixture.phi, mixture.total, work.elements);
+    for_each<Cell>(domain.layout(), domain.grid.cells(),
+                   [&](Cell c) { work.mass[c] = mixture.rho[c] * domain.grid.volume(c); });
+    work.matrix.set_box(domain.grid.cells());
+  }
+
+  double value(const CellVectors<Dim>& u) {
+    CellVectors<Dim> gradient(domain.layout());
+    return evaluate_functional(domain, u_hat, u, dt, work, gradient);
+  }
+  CellVectors<Dim> gradient(const CellVectors<Dim>& u) {
+    CellVectors<Dim> g(domain.layout());
+    evaluate_functional(domain, u_hat, u, dt, work, g);
+    return g;
+  }
+  CellVectors<Dim> times_matrix(const CellVectors<Dim>& v) {
+    CellVectors<Dim> y(domain.layout());
+    work.matrix.apply(v, y);
+    return y;
+  }
+  double product(const CellVectors<Dim>& a, const CellVectors<Dim>& b) {
+    return dot<Cell>(domain.layout(), domain.grid.cells(), a, b);
+  }
+  CellVectors<Dim> combination(const CellVectors<Dim>& a, double factor, const CellVectors<Dim>& b) {
+    CellVectors<Dim> y(domain.layout());
+    for (int d = 0; d < Dim; ++d) {
+      for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) { y[d][c] = a[d][c] + factor * b[d][c]; });
+    }
+    return y;
+  }
+  double size(const CellVectors<Dim>& a) { return std::sqrt(product(a, a)); }
+};
+
+/// Liquid everywhere but in a few corner cells.
+template <int Dim>
+Mixture<Dim> nearly_full(const Domain<Dim>& domain, const Species& species) {
+  Mixture<Dim> mixture(domain, {species});
+  testing::set_cells(domain.grid, mixture.phi[0], [](const Vec<Dim>& x) {
+    double s = 0;
+    for (int d = 0; d < Dim; ++d) s += x[d];
+    return std::clamp((0.85 * Dim - s) * 4, 0.0, 1.0);
+  });
+  mixture.update();
+  return mixture;
+}
+
+/// Calls test(setup) in every geometry with walls that liquid sticks to and with free ones.
+template <class Test>
+void in_every_geometry(const Law& law, Test&& test) {
+  for (const SideKind kind : {SideKind::no_slip, SideKind::free_slip, SideKind::open}) {
+    SCOPED_TRACE(static_cast<int>(kind));
+    test(Setup<2>(testing::make_domain(testing::stretched_grid(7), kind), law, nearly_full<2>));
+    test(Setup<2>(testing::make_domain(testing::tank_grid(6), kind), law, nearly_full<2>));
+    test(Setup<3>(testing::make_domain(testing::box_grid(4), kind), law, nearly_full<3>));
+  }
+}
+
+TEST(PhysicsViscous, GradientIsTheDerivativeOfTheFunctional) {
+  for (const Law& law : {newtonian, bingham}) {
+    in_every_geometry(law, [](auto setup) {
+      const auto u = testing::rough_vectors(setup.domain.grid, 1);
+      const auto v = testing::rough_vectors(setup.domain.grid, 7);
+      const double h = 1e-5;
+      const double difference =
+          (setup.value(setup.combination(u, h, v)) - setup.value(setup.combination(u, -h, v))) / (2 * h);
+      EXPECT_NEAR(setup.product(setup.gradient(u), v), difference, 1e-7 * (1 + std::abs(difference)));
+    });
+  }
+}
+
+TEST(PhysicsViscous, MatrixIsTheDerivativeOfTheGradientForNewtonianLiquids) {
+  in_every_geometry(newtonian, [](auto setup) {
+    const auto u = testing::rough_vectors(setup.domain.grid, 1);
+    const auto v = testing::rough_vectors(setup.domain.grid, 7);
+    assemble_matrix(setup.domain, u, dt, Linearisation::secant, setup.work);
+    const auto difference = setup.combination(setup.gradient(setup.combination(u, 1, v)), -1, setup.gradient(u));
+    EXPECT_LE(setup.size(setup.combination(difference, -1, setup.times_matrix(v))), 1e-12 * setup.size(difference));
+  });
+}
+
+TEST(PhysicsViscous, SecantMatrixGivesTheStressItself) {
+  // M(u) (u - u^) is the gradient less what u^ itself is strained by: with u^ = 0 the two agree.
+  in_every_geometry(bingham, [](auto setup) {
+    for (auto& component : setup.u_hat.component) component.fill(0);
+    const auto u = testing::rough_vectors(setup.domain.grid, 1);
+    assemble_matrix(setup.domain, u, dt, Linearisation::secant, setup.work);
+    const auto g = setup.gradient(u);
+    EXPECT_LE(setup.size(setup.combination(g, -1, setup.times_matrix(u))), 1e-12 * setup.size(g));
+  });
+}
+
+TEST(PhysicsViscous, TangentMatrixIsTheDerivativeOfTheGradientOnceStressAndStrainAgree) {
+  in_every_geometry(bingham, [](auto setup) {
+    const auto u = testing::rough_vectors(setup.domain.grid, 1);
+    const auto v = testing::rough_vectors(setup.domain.grid, 7);
+    const auto none = setup.combination(u, -1, u);
+    update_plastic_stress(setup.domain, u, none, setup.work);
+    assemble_matrix(setup.domain, u, dt, Linearisation::tangent, setup.work);
+    const double h = 1e-6;
+    auto difference =
+        setup.combination(setup.gradient(setup.combination(u, h, v)), -1, setup.gradient(setup.combination(u, -h, v)));
+    difference = setup.combination(none, 0.5 / h, difference);
+    EXPECT_LE(setup.size(setup.combination(difference, -1, setup.times_matrix(v))), 1e-7 * setup.size(difference));
+  });
+}
+
+TEST(PhysicsViscous, MatricesAreSymmetricAndPositiveDefinite) {
+  for (const Linearisation kind : {Linearisation::secant, Linearisation::tangent}) {
+    in_every_geometry(bingham, [kind](auto setup) {
+      const auto u = testing::rough_vectors(setup.domain.grid, 1);
+      const auto v = testing::rough_vectors(setup.domain.grid, 7);
+      const auto w = testing::rough_vectors(setup.domain.grid, 13);
+      // A plastic stress that does not agree with the strain, as in the middle of an iteration.
+      update_plastic_stress(setup.domain, w, setup.combination(w, 0, w), setup.work);
+      assemble_matrix(setup.domain, u, dt, kind, setup.work);
+      const double vw = setup.product(v, setup.times_matrix(w));
+      EXPECT_NEAR(vw, setup.product(w, setup.times_matrix(v)), 1e-12 * std::abs(vw) + 1e-14);
+      EXPECT_GT(setup.product(v, setup.times_matrix(v)), 0);
+      EXPECT_GT(setup.product(w, setup.times_matrix(w)), 0);
+    });
+  }
+}
+
+/// Largest component of the gradient at u = u^, that is, of the stress alone, for a ball that touches no side.
+template <int Dim, class Velocity>
+double stress_of(Domain<Dim> domain, const Vec<Dim>& centre, Velocity&& velocity) {
+  Setup<Dim> setup(std::move(domain), bingham, [&](const Domain<Dim>& d, const Species& species) {
+    return testing::ball(d, species, centre, 0.3);
+  });
+  for (int d = 0; d < Dim; ++d) {
+    testing::set_cells(setup.domain.grid, setup.u_hat[d], [&](const Vec<Dim>& x) { return velocity(x)[d]; });
+  }
+  const CellVectors<Dim> g = setup.gradient(setup.u_hat);
+  double largest = 0;
+  for (int d = 0; d < Dim; ++d) {
+    for_each<Cell>(setup.domain.layout(), setup.domain.grid.cells(),
+                   [&](Cell c) { largest = std::max(largest, std::abs(g[d][c]) / setup.domain.grid.volume(c)); });
+  }
+  return largest;
+}
+
+TEST(PhysicsViscous, RigidMotionsInThePlaneCarryNoStress) {
+  const auto domain = [] { return testing::make_domain(testing::stretched_grid(20), SideKind::no_slip); };
+  const Vec<2> centre{0.5, 0.5};
+  EXPECT_LE(stress_of<2>(domain(), centre, [](const Vec<2>&) { return Vec<2>{1, -2}; }), 1e-11);
+  EXPECT_LE(stress_of<2>(domain(), centre, [](const Vec<2>& x) { return Vec<2>{-x[1], x[0]}; }), 1e-11);
+  EXPECT_GE(stress_of<2>(domain(), centre, [](const Vec<2>& x) { return Vec<2>{x[1], x[0]}; }), 0.01);
+}
+
+TEST(PhysicsViscous, RigidMotionsInSpaceCarryNoStress) {
+  const auto domain = [] { return testing::make_domain(testing::box_grid(10), SideKind::no_slip); };
+  const Vec<3> centre{0.5, 0.5, 0.5};
+  EXPECT_LE(stress_of<3>(domain(), centre, [](const Vec<3>&) { return Vec<3>{1, -2, 3}; }), 1e-11);
+  EXPECT_LE(stress_of<3>(domain(), centre,
+                         [](const Vec<3>& x) {
+                           return Vec<3>{2 * x[2] - x[1], x[0] - 3 * x[2], 3 * x[1] - 2 * x[0]};
+                         }),
+            1e-11);
+}
+
+TEST(PhysicsViscous, MotionAlongTheAxisCarriesNoStress) {
+  const auto domain = [] { return testing::make_domain(testing::tank_grid(16), SideKind::no_slip); };
+  EXPECT_LE(stress_of<2>(domain(), {0, 0.5}, [](const Vec<2>&) { return Vec<2>{0, 2}; }), 1e-11);
+  EXPECT_GE(stress_of<2>(domain(), {0, 0.5}, [](const Vec<2>& x) { return Vec<2>{x[0], 0}; }), 0.01);
+}
+
+TEST(PhysicsViscous, IsotropicExpansionCarriesNoStress) {
+  // (30) takes the trace off: only changes of shape count.
+  const auto domain = testing::make_domain(testing::box_grid(10), SideKind::no_slip);
+  EXPECT_LE(stress_of<3>(domain, {0.5, 0.5, 0.5}, [](const Vec<3>& x) { return x; }), 1e-11);
+}
+
+TEST(PhysicsViscous, SharesOfTheElementsAddUpToTheLiquid) {
+  const auto expect_all = [](auto domain, auto centre) {
+    constexpr int Dim = sizeof(centre) / sizeof(double);
+    const Setup<Dim> setup(std::move(domain), bingham, [&](const Domain<Dim>& d, const Species& species) {
+      return testing::ball<Dim>(d, species, centre, 0.3);
+    });
+    const StressElements<Dim>& elements = setup.work.elements;
+    double total = 0;
+    for_each_indexed<Node>(setup.domain.layout(), setup.domain.grid.nodes(), [&](Node n, const Index<Dim>& i) {
+      if (elements.active[n]) total += elements.share[n] * elements.mesh.element(n, i).volume();
+    });
+    // Elements average the fractions of their corners: equal to the integral up to the weights on stretched or radial
+    // axes.
+    EXPECT_NEAR(total, testing::integral(setup.domain.grid, setup.mixture.phi[0]), 0.02 * total);
+  };
+  expect_all(testing::make_domain(testing::planar_grid(20), SideKind::no_slip), Vec<2>{0.5, 0.5});
+  expect_all(testing::make_domain(testing::tank_grid(20), SideKind::no_slip), Vec<2>{0, 0.5});
+  expect_all(testing::make_domain(testing::box_grid(12), SideKind::no_slip), Vec<3>{0.5, 0.5, 0.5});
+}
+
+TEST(PhysicsViscous, WithoutStiffSpeciesNothingIsActive) {
+  const auto domain = testing::make_domain(testing::planar_grid(6), SideKind::no_slip);
+  Mixture<2> mixture = testing::full(domain, testing::liquid_species(1));
+  StressElements<2> elements(domain);
+  EXPECT_FALSE(mark_stress_elements(domain, mixture.species, mixture.phi, mixture.total, elements));
+}
+
+TEST(PhysicsViscous, RheologyFollowsTheCompositionNotTheFillLevel) {
+  const auto domain = testing::make_domain(testing::planar_grid(4), SideKind::no_slip);
+  Species sand = testing::liquid_species(2, Papanastasiou{0.1, 0.3, 100});
+  sand.concentration = {.viscosity_exponent = 0, .yield_exponent = 4};
+  const Species water = testing::liquid_species(1, Newtonian{0.02});
+  Mixture<2> mixture(domain, {sand, water});
+  testing::set_cells(domain.grid, mixture.phi[0], [](const Vec<2>&) { return 0.3; });
+  testing::set_cells(domain.grid, mixture.phi[1], [](const Vec<2>&) { return 0.2; });
+  mixture.update();
+  StressElements<2> elements(domain);
+  ASSERT_TRUE(mark_stress_elements(domain, mixture.species, mixture.phi, mixture.total, elements));
+  const Rheology& law = elements.rheology[low_node(domain.grid.cell({2, 2}))];
+  EXPECT_NEAR(law.viscosity, 0.6 * 0.1 + 0.4 * 0.02, 1e-14);
+  EXPECT_NEAR(law.yield_stress, 0.3 * concentration_factor(4, 0.6), 1e-14);
+  EXPECT_NEAR(law.regularization, 100, 1e-12);
+}
+
+}  // namespace
+}  // namespace quicksand
