@@ -113,6 +113,17 @@ template <int Dim>
 void Flow<Dim>::initialize() {
   refresh();
   mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
+  // The pressure that balances gravity as the velocities stand: what is at rest stays so from the first step on.
+  const Grid<Dim>& grid = domain_.grid;
+  const CellVectors<Dim> none(domain_.layout());
+  const double dt = 1;
+  add_uniform(grid, none, dt, parameters_.gravity, u_hat_);
+  require_converged(solve_pressure(domain_, u_hat_, rho_, liquid_, parameters_.ambient_pressure, dt, parameters_.linear,
+                                   projection_, state_.pressure),
+                    "initial pressure");
+  add_pressure_gradient(domain_, state_.pressure, rho_, liquid_, -dt, u_hat_);
+  state_.acceleration = u_hat_;
+  refresh();
 }
 
 /// One step of the report's algorithm:

@@ -21,8 +21,8 @@ struct FlowParameters {
   std::vector<Species> species;
   Vec<Dim> gravity;              ///< acceleration vector, downwards along the last axis as a rule
   double ambient_pressure = 0;
-  double liquid_threshold = 0.5; ///< eps of D = {sum phi >= 1 - eps}
-  SolveOptions linear;           ///< both projections
+  double liquid_threshold = 0.99;///< eps of D = {sum phi >= 1 - eps}
+  SolveOptions linear{{.relative = 1e-9}};  ///< both projections
   SolveOptions momentum{{.relative = 1e-13}, Method::jacobi};  ///< momentum redistribution; cheap, and energy hangs on it
   ObstacleOptions obstacle;
   DiffusionOptions diffusion;
@@ -64,7 +64,8 @@ class Flow {
   /// Dual mesh and the rheology of its elements in the current state.
   const StressElements<Dim>& stress_elements() const { return diffusion_.elements; }
 
-  /// Makes the flow ready to advance after state() was set from outside.
+  /// Makes the flow ready to advance after fractions and velocities of state() were set: everything that follows from the
+  /// fractions, and the pressure and acceleration under gravity. \throws NumericalError when the pressure solve fails
   void initialize();
   /// Advances by dt. The state is left as it was when this throws.
   /// \throws NumericalError when a solve fails or a value is not finite

@@ -6,8 +6,9 @@ namespace quicksand {
 
 namespace {
 
-/// Fractions closer than this to 0 or 1 count as uncut: their planes would be noise.
-constexpr double uncut = 1e-8;
+/// Fractions closer than this to 0 or 1 count as uncut. No more than round-off: a film taken for uncut would be spread over its
+/// cell, that is lifted by half a cell, and surfaces at rest would gain energy from the films that round-off puts on them.
+constexpr double uncut = 1e-14;
 
 /// Outward normal times cell width along each axis, from differences of the fraction averaged over the 3^Dim block with weights
 /// 1-2-1 across (Youngs 1984).

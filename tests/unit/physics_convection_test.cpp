@@ -121,8 +121,12 @@ TEST(PhysicsConvection, FractionsStayPositive) {
 TEST(PhysicsConvection, VolumeLeavesThroughOpenSidesOnly) {
   in_every_geometry([](const auto& convection) {
     const bool open = is_open(convection.mixture.domain.sides.at(0, 1));
-    if (!open) EXPECT_EQ(convection.escaped[0], 0);
-    if (open) EXPECT_NE(convection.escaped[0], 0);
+    if (!open) {
+      EXPECT_EQ(convection.escaped[0], 0);
+    }
+    if (open) {
+      EXPECT_NE(convection.escaped[0], 0);
+    }
   });
 }
 

@@ -150,7 +150,9 @@ void expect_no_divergence(const Mixture<Dim>& mixture) {
   EXPECT_LE(divergence(mixture, u), 1e-9);
   for (int d = 0; d < Dim; ++d) {
     for_each<Face>(mixture.domain.layout(), mixture.domain.grid.faces(d), [&](Face f) {
-      if (mixture.domain.aperture[d][f] == 0) EXPECT_EQ(u[d][f], 0);
+      if (mixture.domain.aperture[d][f] == 0) {
+        EXPECT_EQ(u[d][f], 0);
+      }
     });
   }
 }
@@ -176,7 +178,9 @@ TEST(PhysicsMacProjection, FacesBetweenGasCellsAreLeftAlone) {
   for (int d = 0; d < 2; ++d) {
     for_each<Face>(domain.layout(), domain.grid.faces(d), [&](Face f) {
       const Cell high = high_cell(f);
-      if (!mixture.liquid[high] && !mixture.liquid[high - domain.grid.step(d)]) EXPECT_EQ(after[d][f], before[d][f]);
+      if (!mixture.liquid[high] && !mixture.liquid[high - domain.grid.step(d)]) {
+        EXPECT_EQ(after[d][f], before[d][f]);
+      }
     });
   }
 }

@@ -104,8 +104,12 @@ TEST(PhysicsRedistribution, VolumeLeavesThroughOpenSidesOnly) {
   for_every_lump([](auto lump) {
     lump.redistribute();
     const bool open = is_open(lump.domain.sides.at(0, 1));
-    if (open) EXPECT_GT(lump.escaped[0], 1e-4);
-    if (!open) EXPECT_NEAR(lump.escaped[0], 0, 1e-15);
+    if (open) {
+      EXPECT_GT(lump.escaped[0], 1e-4);
+    }
+    if (!open) {
+      EXPECT_NEAR(lump.escaped[0], 0, 1e-15);
+    }
   });
 }
 
@@ -116,7 +120,9 @@ TEST(PhysicsRedistribution, UniformVelocityStaysUniform) {
   lump.redistribute();
   for (int e = 0; e < 2; ++e) {
     for_each<Cell>(lump.domain.layout(), lump.domain.grid.cells(), [&](Cell c) {
-      if (lump.mixture.rho[c] > 1e-8) EXPECT_NEAR(lump.u_bar[e][c], e + 1.0, 1e-9);
+      if (lump.mixture.rho[c] > 1e-8) {
+        EXPECT_NEAR(lump.u_bar[e][c], e + 1.0, 1e-9);
+      }
     });
   }
 }
@@ -128,7 +134,9 @@ TEST(PhysicsRedistribution, MotionAlongTheAxisStaysUniform) {
   lump.redistribute();
   for_each<Cell>(lump.domain.layout(), lump.domain.grid.cells(), [&](Cell c) {
     EXPECT_EQ(lump.u_bar[0][c], 0);
-    if (lump.mixture.rho[c] > 1e-8) EXPECT_NEAR(lump.u_bar[1][c], 2, 1e-9);
+    if (lump.mixture.rho[c] > 1e-8) {
+      EXPECT_NEAR(lump.u_bar[1][c], 2, 1e-9);
+    }
   });
 }
 

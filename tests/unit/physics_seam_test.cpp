@@ -79,7 +79,8 @@ void set_up(Step<Dim>& step) {
   const Grid<Dim>& grid = step.domain.grid;
   for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
     const double above = grid.centre(i)[Dim - 1] - 0.6;
-    const double total = std::clamp(0.5 - 6 * above + 0.6 * testing::rough(i, 2), 0.0, 1.0);
+    const double filled = std::clamp(0.5 - 6 * above + 0.6 * testing::rough(i, 2), 0.0, 1.0);
+    const double total = filled < 0.2 ? 0.0 : filled;
     const double share = 0.5 + 0.5 * testing::rough(i, 3);
     step.mixture.phi[0][c] = share * total;
     step.mixture.phi[1][c] = (1 - share) * total;

@@ -1,0 +1,100 @@
+// What must hold in every step of every shipped case: volumes, room in cells, energy of redistribution and projection.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "support/cases.hpp"
+
+namespace quicksand {
+namespace {
+
+struct ShippedCase {
+  const char* name;
+  double end;   ///< of the short run
+  double full;  ///< of the long one
+};
+
+std::ostream& operator<<(std::ostream& out, const ShippedCase& c) { return out << c.name; }
+
+/// Runs a case to `end` and checks every step.
+template <int Dim>
+void expect_invariants(CaseConfig config, double end) {
+  config.time.end = end;
+  Flow<Dim> flow = build_flow<Dim>(config);
+  const Grid<Dim>& grid = flow.domain().grid;
+  const auto volumes = [&] {
+    std::vector<double> v;
+    for (std::size_t i = 0; i < flow.state().phi.size(); ++i) {
+      v.push_back(species_volume(grid, flow.state().phi[i]) + flow.escaped()[i]);
+    }
+    return v;
+  };
+  const std::vector<double> start = volumes();
+  double whole = 0;
+  for (const double v : start) whole += v;
+  const double circle = grid.axisymmetric() ? 2 * std::numbers::pi : 1.0;
+  testing::run(config, flow, [&](const StepReport& report) {
+    const std::vector<double> now = volumes();
+    for (std::size_t i = 0; i < now.size(); ++i) EXPECT_NEAR(now[i], start[i], 1e-10 * whole);
+    const double fullest = maximum<Cell>(grid.layout(), grid.cells(), 0.0, [&](Cell c) { return flow.total()[c]; });
+    EXPECT_LE(fullest, 1 + 1e-8);
+    for (const CellField& phi : flow.state().phi) {
+      EXPECT_EQ(maximum<Cell>(grid.layout(), grid.cells(), 0.0, [&](Cell c) { return -phi[c]; }), 0);
+    }
+    const Diagnostics d = diagnose(flow);
+    const double energy = (d.kinetic_energy + std::abs(d.potential_energy)) / circle;
+    EXPECT_LE(report.redistribution_energy_change, 1e-12 * energy);
+    EXPECT_LE(report.projection_energy_change, 1e-12 * energy);
+    return !::testing::Test::HasFailure();
+  });
+}
+
+class Invariants : public ::testing::TestWithParam<ShippedCase> {
+ protected:
+  /// \param settled  whether slugs take steps by CFL number, to get far in little time
+  static void expect(double end, bool by_cfl) {
+    const std::string name = GetParam().name;
+    CaseConfig config = testing::shipped_case(name);
+    if (by_cfl && config.time.step && name != "slabs/colliding") config = testing::with_cfl(config);
+    if (config.grid.dimension == 2) expect_invariants<2>(config, end);
+    if (config.grid.dimension == 3) expect_invariants<3>(config, end);
+  }
+};
+
+TEST_P(Invariants, HoldInEveryStep) { expect(GetParam().end, true); }
+
+using InvariantsSlow = Invariants;
+TEST_P(InvariantsSlow, HoldInEveryStepOfTheWholeRun) { expect(GetParam().full, false); }
+
+const ShippedCase cases[] = {
+    {"slug/case_a", 1.2, 6},
+    {"slug/case_b", 1.2, 6},
+    {"slug/case_c", 0.8, 4},
+    {"slug/case_d", 0.8, 4},
+    {"slug/case_e", 0.8, 4},
+    {"slug/case_f", 0.5, 4},
+    {"slug/case_g", 0.5, 4},
+    {"slug/case_b_3d", 0.1, 0.8},
+    {"slug/case_e_3d", 0.06, 1},
+    {"rest/sand_under_water", 0.5, 5},
+    {"dam_break/martin_moyce", 0.8, 2.5},
+    {"sloshing/planar", 1, 11.1},
+    {"sloshing/axisymmetric", 1, 6.8},
+    {"sloshing/two_layer", 1, 12.8},
+    {"slabs/colliding", 1, 1},
+};
+
+std::string name_of(const ::testing::TestParamInfo<ShippedCase>& info) {
+  std::string name = info.param.name;
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Invariants, ::testing::ValuesIn(cases), name_of);
+INSTANTIATE_TEST_SUITE_P(Cases, InvariantsSlow, ::testing::ValuesIn(cases), name_of);
+
+}  // namespace
+}  // namespace quicksand

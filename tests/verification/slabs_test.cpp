@@ -1,0 +1,47 @@
+// Two slabs that collide without rebound: common speed (L1 u1 + L2 u2) / (L1 + L2), energy lost L1 L2 (u1 - u2)^2 / (2
+// (L1 + L2)).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/cases.hpp"
+
+namespace quicksand {
+namespace {
+
+constexpr double thickness = 0.02;  // of the row of cells
+
+TEST(CollidingSlabs, GoOnTogetherWithTheExactSpeedAndEnergy) {
+  const CaseConfig config = testing::shipped_case("slabs/colliding");
+  Flow<2> flow = build_flow<2>(config);
+  EXPECT_NEAR(diagnose(flow).kinetic_energy, 0.225 * thickness, 1e-12);
+  testing::run(config, flow);
+  const Grid<2>& grid = flow.domain().grid;
+  double slowest = 1;
+  double fastest = 0;
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c) {
+    if (flow.total()[c] < empty_fraction) return;
+    slowest = std::min(slowest, flow.state().u[0][c]);
+    fastest = std::max(fastest, flow.state().u[0][c]);
+  });
+  EXPECT_NEAR(slowest, 0.5, 1e-6);
+  EXPECT_NEAR(fastest, 0.5, 1e-6);
+  const Diagnostics end = diagnose(flow);
+  EXPECT_NEAR(end.kinetic_energy, 0.075 * thickness, 1e-6 * thickness);
+  EXPECT_NEAR(end.volume[0], 0.6 * thickness, 1e-14);
+}
+
+TEST(CollidingSlabs, KeepTheirMomentumAllTheWay) {
+  const CaseConfig config = testing::shipped_case("slabs/colliding");
+  Flow<2> flow = build_flow<2>(config);
+  const Grid<2>& grid = flow.domain().grid;
+  testing::run(config, flow, [&](const StepReport&) {
+    const double momentum = sum<Cell>(
+        grid.layout(), grid.cells(), [&](Cell c) { return grid.volume(c) * flow.density()[c] * flow.state().u[0][c]; });
+    EXPECT_NEAR(momentum, 0.3 * thickness, 1e-10);
+    return true;
+  });
+}
+
+}  // namespace
+}  // namespace quicksand
