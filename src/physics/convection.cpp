@@ -34,7 +34,6 @@ class Reconstruction {
   Reconstruction(const Grid<Dim>& grid, const CellField& total) : grid_(grid), total_(total) {}
 
   bool ballistic(Cell c) const { return total_[c] < ballistic_fraction; }
-  double fraction_slope(const CellField& q, Cell c, int d) const { return ballistic(c) ? 0 : slope(grid_, q, c, d); }
   /// The velocity of an empty neighbour means nothing.
   double velocity_slope(const CellField& q, Cell c, int d) const {
     const Step e = grid_.step(d);
@@ -44,9 +43,6 @@ class Reconstruction {
   /// Half-time velocity component on the face of c along d; side +1 high, -1 low.
   double face_velocity(const CellField& u_half, const CellField& u, Cell c, int d, int side) const {
     return u_half[c] + 0.5 * side * grid_.width(d, c) * velocity_slope(u, c, d);
-  }
-  double face_fraction(const CellField& phi_half, const CellField& phi, Cell c, int d, int side) const {
-    return std::clamp(phi_half[c] + 0.5 * side * grid_.width(d, c) * fraction_slope(phi, c, d), 0.0, 1.0);
   }
 
  private:
@@ -74,34 +70,28 @@ double advect_half(const CellVectors<Dim>& u, Cell c, double dt, Slope&& slope_a
   return change;
 }
 
-/// Half-time fractions of the species, for their shares in what crosses a face.
+/// Planes of the species' nested regions: plane i bounds species 0 ... i together, the last one is the liquid's surface.
 template <int Dim>
-void predict_fractions(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, double dt,
-                       ConvectionWork<Dim>& work) {
-  const Reconstruction<Dim> reconstruction(domain.grid, in.total);
+void reconstruct_planes(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, ConvectionWork<Dim>& work) {
   for (std::size_t i = 0; i < in.phi.size(); ++i) {
-    const CellField& phi = in.phi[i];
-    CellField& phi_half = work.phi_half[i];
-    for_each<Cell>(domain.layout(), grow(domain.grid.cells(), 1), [&](Cell c) {
-      phi_half[c] = phi[c] + advect_half(in.u, c, dt, [&](int d) { return reconstruction.fraction_slope(phi, c, d); });
-    });
+    CellField& region = work.region[i];
+    for_each<Cell>(domain.layout(), grow(domain.grid.cells(), ghosts),
+                   [&](Cell c) { region[c] = i == 0 ? in.phi[0][c] : work.region[i - 1][c] + in.phi[i][c]; });
+    reconstruct_surface(domain.grid, region, work.surface[i]);
   }
 }
 
-/// Volume fluxes per species and side: the filled part of the swept slab, shared among the species as their limited face
-/// fractions are.
+/// Volume fluxes of species i from either side: what region i fills of the swept slab, less what species 0 ... i-1 take of
+/// it. Where those were limited species i makes up for them, so that liquid stays full.
 template <int Dim>
 void store_volume_fluxes(const Domain<Dim>& domain, const ConvectionInput<Dim>& in,
-                         const FaceVelocities<Dim>& velocities, double dt, ConvectionWork<Dim>& work) {
-  const Reconstruction<Dim> reconstruction(domain.grid, in.total);
-  const std::size_t m = in.phi.size();
-  const auto sum_scale = [&](Cell c, int d, int side, double velocity) {
-    double parts = 0;
-    for (std::size_t i = 0; i < m; ++i) {
-      parts += reconstruction.face_fraction(work.phi_half[i], in.phi[i], c, d, side);
-    }
-    const double whole = swept_fraction(domain.grid, work.surface, in.total, in.u, c, d, side, velocity, dt);
-    return parts > 0 ? whole / parts : 0.0;
+                         const FaceVelocities<Dim>& velocities, double dt, std::size_t i, ConvectionWork<Dim>& work) {
+  const std::size_t whole = in.phi.size() - 1;
+  const auto swept = [&](Cell c, int d, int side, double velocity) {
+    const auto part = [&](std::size_t k) {
+      return swept_fraction(domain.grid, work.surface[k], work.region[k], in.u, c, d, side, velocity, dt);
+    };
+    return velocity * (i < whole ? std::min(part(i), part(whole)) : part(i));
   };
   for (int d = 0; d < Dim; ++d) {
     for_each<Face>(domain.layout(), domain.grid.faces(d), [&](Face f) {
@@ -110,14 +100,14 @@ void store_volume_fluxes(const Domain<Dim>& domain, const ConvectionInput<Dim>& 
       const double up = velocities.from_low[d][f];
       const double down = velocities.from_high[d][f];
       const double area = domain.aperture[d][f];
-      const double up_scaled = up > 0 ? area * up * sum_scale(low, d, 1, up) : 0.0;
-      const double down_scaled = down < 0 ? area * down * sum_scale(high, d, -1, down) : 0.0;
-      for (std::size_t i = 0; i < m; ++i) {
-        work.flux_low[i][d][f] =
-            up > 0 ? up_scaled * reconstruction.face_fraction(work.phi_half[i], in.phi[i], low, d, 1) : 0.0;
-        work.flux_high[i][d][f] =
-            down < 0 ? down_scaled * reconstruction.face_fraction(work.phi_half[i], in.phi[i], high, d, -1) : 0.0;
+      double from_low = up > 0 ? area * swept(low, d, 1, up) : 0.0;
+      double from_high = down < 0 ? area * swept(high, d, -1, down) : 0.0;
+      for (std::size_t j = 0; j < i; ++j) {
+        from_low -= work.flux_low[j][d][f];
+        from_high -= work.flux_high[j][d][f];
       }
+      work.flux_low[i][d][f] = std::max(from_low, 0.0);
+      work.flux_high[i][d][f] = std::min(from_high, 0.0);
     });
   }
 }
@@ -164,8 +154,8 @@ double outflow_through_sides(const Domain<Dim>& domain, const FaceScalars<Dim>& 
 template <int Dim>
 ConvectionWork<Dim>::ConvectionWork(const Layout<Dim>& layout, std::size_t n_species)
     : u_half(layout),
-      phi_half(n_species, CellField(layout)),
-      surface(layout),
+      region(n_species, CellField(layout)),
+      surface(n_species, Surface<Dim>(layout)),
       outflow(layout),
       flux_low(n_species, FaceScalars<Dim>(layout)),
       flux_high(n_species, FaceScalars<Dim>(layout)) {}
@@ -229,10 +219,9 @@ void convect(const Domain<Dim>& domain, const std::vector<Species>& species, con
              const FaceVelocities<Dim>& velocities, ConvectionWork<Dim>& work, Fractions& phi_tilde,
              CellVectors<Dim>& momentum_tilde, std::vector<double>& escaped) {
   const Grid<Dim>& grid = domain.grid;
-  predict_fractions(domain, in, dt, work);
-  reconstruct_surface(grid, in.total, work.surface);
-  store_volume_fluxes(domain, in, velocities, dt, work);
+  reconstruct_planes(domain, in, work);
   for (std::size_t i = 0; i < species.size(); ++i) {
+    store_volume_fluxes(domain, in, velocities, dt, i, work);
     FaceScalars<Dim>& low = work.flux_low[i];
     FaceScalars<Dim>& high = work.flux_high[i];
     limit_outflow(domain, in.phi[i], dt, work.outflow, low, high);

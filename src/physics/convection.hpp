@@ -2,7 +2,7 @@
 /// \file
 /// Convection (44): second-order Godunov predictor and conservative update of fractions and momentum.
 ///
-/// Half-time states follow from limited slopes (monotonized central differences, MUSCL-Hancock) and the lagged
+/// Fractions move with planes (surface.hpp). Half-time velocities follow from limited slopes (monotonized central differences, MUSCL-Hancock) and the lagged
 /// acceleration. At the border of the liquid region D fluxes are two-sided: what the gas-side cell throws at the liquid
 /// enters with its own velocity, however the liquid moves, so that a collision shows as excess density for the
 /// redistribution to remove.
@@ -39,8 +39,8 @@ struct FaceVelocities {
 template <int Dim>
 struct ConvectionWork {
   CellVectors<Dim> u_half;
-  Fractions phi_half;
-  Surface<Dim> surface;
+  std::vector<CellField> region;       ///< per species: sum of its and all earlier fractions
+  std::vector<Surface<Dim>> surface;   ///< planes of these regions
   CellField outflow;
   std::vector<FaceScalars<Dim>> flux_low, flux_high;  ///< per species: volume per time given by the low and high cell
 
