@@ -59,7 +59,9 @@ double upwind(double u_low, double u_high, double rho_low, double rho_high, bool
   if (u_low < 0 && u_high > 0) return 0;
   const double a = std::sqrt(std::max(rho_low, 0.0));
   const double b = std::sqrt(std::max(rho_high, 0.0));
-  return a * u_low + b * u_high > 0 ? u_low : u_high;
+  // Colliding states: continuous in both, and 0 where they are equal and opposite, so that round-off never picks a side.
+  if (u_low > 0 && u_high < 0) return (a * u_low * u_low - b * u_high * u_high) / (a * u_low - b * u_high);
+  return u_low > 0 ? u_low : u_high;
 }
 
 /// -dt/2 (u . grad) q in the cell.

@@ -1,0 +1,172 @@
+// The slug of Table 2 of the report: a cylinder of liquid or slurry, radius 1/4 and height 1, collapses in a tank of
+// radius 1/2. References are a sharp-interface volume-of-fluid code on its finest grid, and what the report describes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/cases.hpp"
+
+namespace quicksand {
+namespace {
+
+/// Height on the axis and radius of the base.
+struct Outline {
+  double height;
+  double radius;
+};
+
+struct Slug {
+  std::vector<Outline> shape;  ///< at the times asked for
+  double last_speed;           ///< of the liquid, at the end
+};
+
+/// Runs a case and measures it at some times; the last one is the end.
+template <int Dim>
+Slug collapse(CaseConfig config, const std::vector<double>& times) {
+  config.time.end = times.back();
+  config.output.fields = {.every = {}, .times = times};
+  Flow<Dim> flow = build_flow<Dim>(config);
+  Slug slug{};
+  testing::run(config, flow, [&](const StepReport&) {
+    const std::size_t next = slug.shape.size();
+    if (next < times.size() && flow.state().time >= times[next] - 1e-9) {
+      const Diagnostics now = diagnose(flow);
+      slug.shape.push_back({now.height_axis, now.radius_base});
+      slug.last_speed = now.max_speed_liquid;
+    }
+    return true;
+  });
+  return slug;
+}
+
+/// A case of the slug at 32 * refinement cells per unit of length, with steps by CFL number.
+CaseConfig fast(char letter, int refinement = 1, const std::vector<std::string>& settings = {}) {
+  const std::string name = std::string("slug/case_") + letter;
+  return testing::refined(testing::with_cfl(testing::shipped_case(name, settings)), refinement);
+}
+
+/// The case as it is shipped, with the steps of Table 2.
+CaseConfig as_shipped(char letter) { return testing::shipped_case(std::string("slug/case_") + letter); }
+
+void expect_within(double value, double reference, double relative) {
+  EXPECT_NEAR(value, reference, relative * reference);
+}
+
+constexpr Outline stopped_d{0.486, 0.463};
+constexpr Outline stopped_e{0.735, 0.342};
+
+TEST(Slug, ViscousLiquidFallsAsInTheReference) {
+  const Slug slug = collapse<2>(fast('b'), {1, 2});
+  expect_within(slug.shape[0].height, 0.509, 0.02);
+  expect_within(slug.shape[1].height, 0.126, 0.02);
+}
+
+TEST(Slug, SoftSlurryStopsAsInTheReference) {
+  const Slug slug = collapse<2>(fast('d'), {3, 4});
+  expect_within(slug.shape[1].height, stopped_d.height, 0.04);
+  expect_within(slug.shape[1].radius, stopped_d.radius, 0.08);
+  expect_within(slug.shape[1].height, slug.shape[0].height, 0.01);
+  EXPECT_LE(slug.last_speed, 0.01);
+}
+
+TEST(Slug, SandCastleStopsAsInTheReference) {
+  const Slug slug = collapse<2>(fast('e'), {3, 4});
+  expect_within(slug.shape[1].height, stopped_e.height, 0.04);
+  expect_within(slug.shape[1].radius, stopped_e.radius, 0.08);
+  expect_within(slug.shape[1].height, slug.shape[0].height, 0.01);
+  EXPECT_LE(slug.last_speed, 0.01);
+  EXPECT_LE(slug.shape[1].radius, 0.4);  // well short of the wall
+}
+
+TEST(Slug, StrongSlurryStandsFast) {
+  const Slug slug = collapse<2>(fast('f'), {2});
+  EXPECT_GE(slug.shape[0].height, 0.98);
+  EXPECT_LE(slug.shape[0].radius, 0.26);
+}
+
+TEST(Slug, InviscidLiquidSloshes) {
+  const Slug slug = collapse<2>(fast('a'), {2, 3});
+  EXPECT_LE(slug.shape[0].height, 0.1);
+  EXPECT_GE(slug.shape[1].height, 0.4);  // thrown up again on the axis
+}
+
+TEST(Slug, YieldStressOrdersTheHeights) {
+  const double b = collapse<2>(fast('b'), {2}).shape[0].height;
+  const double d = collapse<2>(fast('d'), {2}).shape[0].height;
+  const double e = collapse<2>(fast('e'), {2}).shape[0].height;
+  const double f = collapse<2>(fast('f'), {2}).shape[0].height;
+  EXPECT_LT(b, d);
+  EXPECT_LT(d, e);
+  EXPECT_LT(e, f);
+}
+
+TEST(Slug, SofterRegularizationCreepsOn) {
+  const auto creep = [](char letter) {
+    const Slug slug = collapse<2>(fast(letter), {3, 4});
+    return slug.shape[0].height - slug.shape[1].height;
+  };
+  EXPECT_GE(creep('c'), 2 * creep('d'));
+}
+
+TEST(Slug, SlugsStopAsInTheReferenceWithTheStepsOfTheTableSlow) {
+  const Slug d = collapse<2>(as_shipped('d'), {4});
+  expect_within(d.shape[0].height, stopped_d.height, 0.04);
+  expect_within(d.shape[0].radius, stopped_d.radius, 0.08);
+  const Slug e = collapse<2>(as_shipped('e'), {4});
+  expect_within(e.shape[0].height, stopped_e.height, 0.04);
+  expect_within(e.shape[0].radius, stopped_e.radius, 0.08);
+}
+
+TEST(Slug, StrongSlurriesStandFastWithTheStepsOfTheTableSlow) {
+  for (const char letter : {'f', 'g'}) {
+    const Slug slug = collapse<2>(as_shipped(letter), {2});
+    EXPECT_GE(slug.shape[0].height, 0.98);
+    EXPECT_LE(slug.shape[0].radius, 0.26);
+  }
+}
+
+TEST(Slug, FinerGridsStopAsInTheReferenceSlow) {
+  const Slug d = collapse<2>(fast('d', 2), {4});
+  expect_within(d.shape[0].height, stopped_d.height, 0.04);
+  expect_within(d.shape[0].radius, stopped_d.radius, 0.06);
+  const Slug e = collapse<2>(fast('e', 2), {4});
+  expect_within(e.shape[0].height, stopped_e.height, 0.04);
+  expect_within(e.shape[0].radius, stopped_e.radius, 0.06);
+}
+
+TEST(Slug, SandCastleHardlyDependsOnTheGridSlow) {
+  const double coarse = collapse<2>(fast('e', 1), {4}).shape[0].height;
+  const double middle = collapse<2>(fast('e', 2), {4}).shape[0].height;
+  const double fine = collapse<2>(fast('e', 4), {4}).shape[0].height;
+  EXPECT_GT((coarse - middle) * (middle - fine), 0) << coarse << " " << middle << " " << fine;
+  expect_within(coarse, fine, 0.03);
+}
+
+TEST(Slug, LiquidThresholdHardlyMattersSlow) {
+  const auto stopped = [](const char* threshold) {
+    return collapse<2>(fast('e', 1, {std::string("solver.liquid_threshold=") + threshold}), {4}).shape[0];
+  };
+  const Outline low = stopped("0.3");
+  const Outline high = stopped("0.6");
+  expect_within(low.height, high.height, 0.02);
+  expect_within(low.radius, high.radius, 0.02);
+}
+
+TEST(Slug, SpaceAgreesWithTheTankSlow) {
+  const auto compare = [](const std::string& tank_name, const std::string& box_name, double end) {
+    CaseConfig tank = testing::with_cfl(testing::shipped_case(tank_name));
+    const CaseConfig box = testing::with_cfl(testing::shipped_case(box_name));
+    tank.time.end = end;
+    const Slug round = collapse<2>(tank, {end});
+    const Slug quarter = collapse<3>(box, {end});
+    expect_within(quarter.shape[0].height, round.shape[0].height, 0.03);
+    expect_within(quarter.shape[0].radius, round.shape[0].radius, 0.03);
+  };
+  compare("slug/case_b", "slug/case_b_3d", 0.8);
+  compare("slug/case_e", "slug/case_e_3d", 4);
+}
+
+}  // namespace
+}  // namespace quicksand
