@@ -35,7 +35,7 @@ double plastic_coefficient(const LawValue& law, const StrainRate<Dim>& s, const 
   return reduction * law.slope / (law.plastic * s.scalar);
 }
 
-/// Stiffness of one element, [corner a][corner b][component][component].
+/// Stiffness of one element, [corner a][corner b][component][component]; filled for a >= b, the rest follows by symmetry.
 template <int Dim>
 using ElementMatrix = double[corner_count<Dim>][corner_count<Dim>][Dim][Dim];
 
@@ -55,7 +55,7 @@ void add_point(const PointShapes<Dim>& shapes, const StrainRate<Dim>& s, const S
   }
   for (int a = 0; a < corner_count<Dim>; ++a) {
     const double(&ga)[Dim] = shapes.gradient[a];
-    for (int b = 0; b < corner_count<Dim>; ++b) {
+    for (int b = 0; b <= a; ++b) {
       const double(&gb)[Dim] = shapes.gradient[b];
       double dot = 0;
       for (int d = 0; d < Dim; ++d) dot += ga[d] * gb[d];
@@ -88,21 +88,24 @@ struct OffsetTable {
   }
 };
 
+/// Adds an element's stiffness to the matrix. Corners on the boundary share the cells of others, so that two corners may
+/// be one cell, or lie the other way round than their numbers.
 template <int Dim>
 void scatter(const DualElement<Dim>& e, const ElementMatrix<Dim>& K, const OffsetTable<Dim>& table,
              VelocityMatrix<Dim>& matrix) {
   for (int a = 0; a < corner_count<Dim>; ++a) {
-    for (int b = 0; b < corner_count<Dim>; ++b) {
+    for (int b = 0; b <= a; ++b) {
       const int apart = e.place[a] - e.place[b];
-      if (apart < 0) continue;
-      const Cell c = e.corner[a];
       for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j) {
           const double value = e.factor[a][i] * e.factor[b][j] * K[a][b][i][j];
           if (apart > 0) {
-            matrix.lower(i, j, table.of_place[apart])[c] += value;
-          } else if (i <= j) {
-            matrix.centre(i, j)[c] += value;
+            matrix.lower(i, j, table.of_place[apart])[e.corner[a]] += value;
+          } else if (apart < 0) {
+            matrix.lower(j, i, table.of_place[-apart])[e.corner[b]] += value;
+          } else {
+            if (i <= j) matrix.centre(i, j)[e.corner[a]] += value;
+            if (a != b && j <= i) matrix.centre(j, i)[e.corner[a]] += value;
           }
         }
       }
