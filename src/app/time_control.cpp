@@ -37,9 +37,9 @@ double TimeControl::next_step(double now, double last_dt, double stable) const {
   } else {
     dt = std::min(stable, time_.max_step.value_or(left));
     dt = last_dt > 0 ? std::min(dt, largest_growth * last_dt) : first_step_share * dt;
-    if (time_.min_step && dt < *time_.min_step && last_dt > 0) {
-      throw NumericalError("the stable time step " + number_text(dt) + " at time " + number_text(now) +
-                           " is below time.min_step " + number_text(*time_.min_step));
+    if (time_.min_step && stable < *time_.min_step) {
+      throw NumericalError("the stable time step " + number_text(stable) + " is below time.min_step " +
+                           number_text(*time_.min_step));
     }
     until = std::min(left, next_output() > now ? next_output() - now : left);
   }
