@@ -21,7 +21,7 @@ struct FlowParameters {
   std::vector<Species> species;
   Vec<Dim> gravity;              ///< acceleration vector, downwards along the last axis as a rule
   double ambient_pressure = 0;
-  double liquid_threshold = 0.9;  ///< eps of D = {sum phi >= 1 - eps}
+  double liquid_threshold = 0.95;  ///< eps of D = {sum phi >= 1 - eps}
   SolveOptions linear{{.relative = 1e-9}};  ///< both projections
   SolveOptions momentum{{.relative = 1e-13}, Method::jacobi};  ///< momentum redistribution; cheap, and energy hangs on it
   ObstacleOptions obstacle;

@@ -7,7 +7,7 @@ namespace quicksand {
 namespace {
 
 /// Below this density a cell's velocity is the quotient of two round-off errors.
-constexpr double least_density = 1e-200;
+constexpr double least_density = 1e-14;
 
 /// -div grad in finite volumes; `rule(d, s)` gives the ghost rule (its alpha) on side s of axis d.
 template <int Dim, class Rule>
