@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 bool is_result(const fs::path& file) {
   const std::string name = file.filename().string();
   if (name == "case.yaml" || name == "summary.json" || name == "history.csv" || name == "fields.xdmf") return true;
-  return file.extension() == ".h5" && (name.starts_with("fields_") || name.starts_with("failed_fields_") || name.starts_with("checkpoint_"));
+  return file.extension() == ".h5" &&
+         (name.starts_with("fields_") || name.starts_with("failed_fields_") || name.starts_with("checkpoint_"));
 }
 
 void remove_results(const fs::path& folder) {

@@ -6,8 +6,8 @@
 
 namespace quicksand {
 
-/// On a terminal a line that is redrawn: time, step, dt, cells per second, time left. In a pipe one line per output and no
-/// control codes.
+/// On a terminal a line that is redrawn: time, step, dt, cells per second, time left. In a pipe one line per output and
+/// no control codes.
 class Progress {
  public:
   Progress(double end, long cells, bool quiet);

@@ -97,14 +97,13 @@ void ResultWriter<Dim>::append_history(const Flow<Dim>& flow, const Diagnostics&
   line.insert(line.end(), diagnostics.volume.begin(), diagnostics.volume.end());
   int obstacle = 0;
   for (const ObstacleReport& o : report.obstacle) obstacle += o.iterations;
-  line.insert(line.end(),
-              {diagnostics.kinetic_energy, diagnostics.potential_energy, diagnostics.max_speed,
-               diagnostics.max_speed_liquid, diagnostics.height_axis, diagnostics.height_max, diagnostics.radius_base,
-               report.redistribution_energy_change, report.projection_energy_change,
-               static_cast<double>(report.mac.iterations), static_cast<double>(obstacle),
-               static_cast<double>(report.momentum.iterations), static_cast<double>(report.diffusion.iterations),
-               static_cast<double>(report.diffusion.linear_iterations),
-               static_cast<double>(report.projection.iterations)});
+  line.insert(
+      line.end(),
+      {diagnostics.kinetic_energy, diagnostics.potential_energy, diagnostics.max_speed, diagnostics.max_speed_liquid,
+       diagnostics.height_axis, diagnostics.height_max, diagnostics.radius_base, report.redistribution_energy_change,
+       report.projection_energy_change, static_cast<double>(report.mac.iterations), static_cast<double>(obstacle),
+       static_cast<double>(report.momentum.iterations), static_cast<double>(report.diffusion.iterations),
+       static_cast<double>(report.diffusion.linear_iterations), static_cast<double>(report.projection.iterations)});
   history_->append(line);
 }
 

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "app/case_config.hpp"
-#include "core/text_output.hpp"
 #include "core/snapshot.hpp"
+#include "core/text_output.hpp"
 #include "core/xdmf.hpp"
 #include "physics/diagnostics.hpp"
 #include "physics/flow.hpp"

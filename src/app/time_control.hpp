@@ -5,8 +5,8 @@
 
 namespace quicksand {
 
-/// Decides how long the next step is: the case's fixed step, or the stable one within its limits; shortened so that a step ends
-/// at the end of the run and, with steps by CFL number, at every output time.
+/// Decides how long the next step is: the case's fixed step, or the stable one within its limits; shortened so that a
+/// step ends at the end of the run and, with steps by CFL number, at every output time.
 class TimeControl {
  public:
   TimeControl(const TimeSettings& time, const OutputSchedule& fields);

@@ -2,8 +2,8 @@
 /// \file
 /// Sides of the domain and the ghost rules that follow from their kind.
 ///
-/// A ghost value is affine in its mirror cell, ghost = alpha * mirror + beta, so that the same rule fills ghost cells and
-/// enters a matrix (diagonal += alpha * coefficient, right-hand side -= beta * coefficient).
+/// A ghost value is affine in its mirror cell, ghost = alpha * mirror + beta, so that the same rule fills ghost cells
+/// and enters a matrix (diagonal += alpha * coefficient, right-hand side -= beta * coefficient).
 #include <array>
 
 #include "core/field.hpp"
@@ -40,13 +40,14 @@ GhostRule fraction_rule(const Side& side);
 /// Velocity in convection and redistribution, where no wall drags: normal component odd and tangential even at closed
 /// sides, both continued at open ones.
 GhostRule inviscid_velocity_rule(const Side& side, bool normal);
-/// Velocity in the viscous stress: as above, but tangential zero on a no-slip wall and on an open side (report, tube flow).
+/// Velocity in the viscous stress: as above, but tangential zero on a no-slip wall and on an open side (report, tube
+/// flow).
 GhostRule viscous_velocity_rule(const Side& side, bool normal);
 /// Potentials whose gradient moves volume (H, MAC pressure increment): flux zero at closed sides, zero on open ones.
 GhostRule potential_rule(const Side& side);
 
-/// Fills the ghost cells beyond the domain's boundary, corners included; ghost cells at seams between grids are left alone.
-/// \param rule  callable (axis, side 0|1) -> GhostRule
+/// Fills the ghost cells beyond the domain's boundary, corners included; ghost cells at seams between grids are left
+/// alone. \param rule  callable (axis, side 0|1) -> GhostRule
 template <int Dim, class Rule>
 void fill_ghosts(const Grid<Dim>& grid, CellField& field, Rule&& rule) {
   Box<Dim> done = grid.cells();

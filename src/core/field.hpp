@@ -16,8 +16,7 @@ class Field {
  public:
   Field() = default;
   template <int Dim>
-  explicit Field(const Layout<Dim>& layout, T value = T{})
-      : values_(static_cast<std::size_t>(layout.size()), value) {}
+  explicit Field(const Layout<Dim>& layout, T value = T{}) : values_(static_cast<std::size_t>(layout.size()), value) {}
 
   T& operator[](At at) { return values_[static_cast<std::size_t>(at.n)]; }
   const T& operator[](At at) const { return values_[static_cast<std::size_t>(at.n)]; }

@@ -67,8 +67,11 @@ void Grid<Dim>::store_axis(int d) {
   const int n_global = global_cells_[d];
   // Global face coordinate, mirrored about the domain's ends.
   const auto position = [&](int i) {
-    if (i < 0) return 2 * global.front() - global[at(std::min(-i, n_global))];
-    if (i > n_global) return 2 * global.back() - global[at(std::max(2 * n_global - i, 0))];
+    // An axis of one cell has no second width to mirror and repeats its only one.
+    if (i < -n_global) return global.front() - (global.back() - global.front()) * -i / n_global;
+    if (i > 2 * n_global) return global.back() + (global.back() - global.front()) * (i - n_global) / n_global;
+    if (i < 0) return 2 * global.front() - global[at(-i)];
+    if (i > n_global) return 2 * global.back() - global[at(2 * n_global - i)];
     return global[at(i)];
   };
   const int n = layout_.cells()[d] + 2 * ghosts;

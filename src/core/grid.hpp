@@ -22,9 +22,9 @@ struct LineElement {
 
 /// Grid of `Dim` rectilinear axes. The last axis is vertical. Lengths in the unit of the case.
 ///
-/// A grid owns a box of the cells of the global axes. Fields hold the owned cells and `ghosts` layers around them; ghost
-/// cells beyond the domain mirror the widths of the cells inside. For axisymmetric grids axis 0 is the radius and all
-/// volumes and areas are per radian, so that r enters here and in the hoop strain only.
+/// A grid owns a box of the cells of the global axes. Fields hold the owned cells and `ghosts` layers around them;
+/// ghost cells beyond the domain mirror the widths of the cells inside. For axisymmetric grids axis 0 is the radius and
+/// all volumes and areas are per radian, so that r enters here and in the hoop strain only.
 template <int Dim>
 class Grid {
  public:
@@ -48,9 +48,9 @@ class Grid {
     return side == 0 ? owned_global_.lo[d] == 0 : owned_global_.hi[d] == global_cells_[d];
   }
 
-  Box<Dim> cells() const { return {Index<Dim>{}, layout_.cells()}; }                  ///< owned cells
-  Box<Dim> faces(int d) const { return extend_high(cells(), d); }                     ///< faces of owned cells along d
-  Box<Dim> nodes() const;                                                             ///< nodes of owned cells
+  Box<Dim> cells() const { return {Index<Dim>{}, layout_.cells()}; }  ///< owned cells
+  Box<Dim> faces(int d) const { return extend_high(cells(), d); }     ///< faces of owned cells along d
+  Box<Dim> nodes() const;                                             ///< nodes of owned cells
   /// Cell multi-index (owned cells start at 0) to flat index.
   Cell cell(const Index<Dim>& i) const { return {layout_.flat(i)}; }
 

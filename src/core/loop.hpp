@@ -17,7 +17,9 @@ namespace detail {
 /// Loops over fewer points than this run on one thread: starting a team costs more than they do.
 inline constexpr std::ptrdiff_t smallest_threaded_loop = 8192;
 
-/// Rows (runs along x) of a box, numbered 0 ... count-1.
+}  // namespace detail
+
+/// Rows (runs along x) of a box, numbered 0 ... count-1; for serial loops in a fixed order.
 template <int Dim>
 struct Rows {
   const Layout<Dim>& layout;
@@ -38,15 +40,13 @@ struct Rows {
     }
     return layout.flat(i);
   }
-  bool worth_threads() const { return count * length >= smallest_threaded_loop; }
+  bool worth_threads() const { return count * length >= detail::smallest_threaded_loop; }
 };
-
-}  // namespace detail
 
 /// Calls body(At) for every point of the box. The body writes only to its own point.
 template <class At, int Dim, class Body>
 void for_each(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
-  const detail::Rows<Dim> rows(layout, box);
+  const Rows<Dim> rows(layout, box);
 #pragma omp parallel for schedule(static) if (rows.worth_threads())
   for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
     const std::ptrdiff_t start = rows.start(r);
@@ -58,7 +58,7 @@ void for_each(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
 /// Calls body(At, Index) for every point of the box; for loops that need the multi-index (1-D metrics, shapes).
 template <class At, int Dim, class Body>
 void for_each_indexed(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
-  const detail::Rows<Dim> rows(layout, box);
+  const Rows<Dim> rows(layout, box);
 #pragma omp parallel for schedule(static) if (rows.worth_threads())
   for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
     const std::ptrdiff_t start = rows.start(r);
@@ -99,7 +99,7 @@ void for_each_coloured(const Layout<Dim>& layout, const Box<Dim>& box, Body&& bo
 /// Sum of f(At) over the box.
 template <class At, int Dim, class F>
 double sum(const Layout<Dim>& layout, const Box<Dim>& box, F&& f) {
-  const detail::Rows<Dim> rows(layout, box);
+  const Rows<Dim> rows(layout, box);
   std::vector<double> partial(static_cast<std::size_t>(rows.count), 0.0);
 #pragma omp parallel for schedule(static) if (rows.worth_threads())
   for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
@@ -117,7 +117,7 @@ double sum(const Layout<Dim>& layout, const Box<Dim>& box, F&& f) {
 /// Largest f(At) over the box, at least `floor`. NaN is not seen: check finiteness apart.
 template <class At, int Dim, class F>
 double maximum(const Layout<Dim>& layout, const Box<Dim>& box, double floor, F&& f) {
-  const detail::Rows<Dim> rows(layout, box);
+  const Rows<Dim> rows(layout, box);
   double largest = floor;
 #pragma omp parallel for schedule(static) reduction(max : largest) if (rows.worth_threads())
   for (std::ptrdiff_t r = 0; r < rows.count; ++r) {

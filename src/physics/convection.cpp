@@ -59,7 +59,8 @@ double upwind(double u_low, double u_high, double rho_low, double rho_high, bool
   if (u_low < 0 && u_high > 0) return 0;
   const double a = std::sqrt(std::max(rho_low, 0.0));
   const double b = std::sqrt(std::max(rho_high, 0.0));
-  // Colliding states: continuous in both, and 0 where they are equal and opposite, so that round-off never picks a side.
+  // Colliding states: continuous in both, and 0 where they are equal and opposite, so that round-off never picks a
+  // side.
   if (u_low > 0 && u_high < 0) return (a * u_low * u_low - b * u_high * u_high) / (a * u_low - b * u_high);
   return u_low > 0 ? u_low : u_high;
 }
@@ -72,7 +73,8 @@ double advect_half(const CellVectors<Dim>& u, Cell c, double dt, Slope&& slope_a
   return change;
 }
 
-/// Planes of the species' nested regions: plane i bounds species 0 ... i together, the last one is the liquid's surface.
+/// Planes of the species' nested regions: plane i bounds species 0 ... i together, the last one is the liquid's
+/// surface.
 template <int Dim>
 void reconstruct_planes(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, ConvectionWork<Dim>& work) {
   for (std::size_t i = 0; i < in.phi.size(); ++i) {
@@ -83,8 +85,8 @@ void reconstruct_planes(const Domain<Dim>& domain, const ConvectionInput<Dim>& i
   }
 }
 
-/// Volume fluxes of species i from either side: what region i fills of the swept slab, less what species 0 ... i-1 take of
-/// it. Where those were limited species i makes up for them, so that liquid stays full.
+/// Volume fluxes of species i from either side: what region i fills of the swept slab, less what species 0 ... i-1 take
+/// of it. Where those were limited species i makes up for them, so that liquid stays full.
 template <int Dim>
 void store_volume_fluxes(const Domain<Dim>& domain, const ConvectionInput<Dim>& in,
                          const FaceVelocities<Dim>& velocities, double dt, std::size_t i, ConvectionWork<Dim>& work) {
@@ -144,8 +146,8 @@ double outflow_through_sides(const Domain<Dim>& domain, const FaceScalars<Dim>& 
     for (int s = 0; s < 2; ++s) {
       const Box<Dim> layer = intersect(domain.side_faces(d, s), domain.grid.faces(d));
       const double sign = s == 0 ? -1 : 1;
-      escaped += sum<Face>(domain.layout(), layer,
-                           [&](Face f) { return sign * dt * (flux_low[d][f] + flux_high[d][f]); });
+      escaped +=
+          sum<Face>(domain.layout(), layer, [&](Face f) { return sign * dt * (flux_low[d][f] + flux_high[d][f]); });
     }
   }
   return escaped;
@@ -170,21 +172,20 @@ void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& i
   for (int e = 0; e < Dim; ++e) {
     for_each<Cell>(domain.layout(), grow(grid.cells(), 1), [&](Cell c) {
       const double a = reconstruction.ballistic(c) ? 0 : in.acceleration[e][c];
-      work.u_half[e][c] = in.u[e][c] + 0.5 * dt * a + advect_half(in.u, c, dt, [&](int d) {
-                            return reconstruction.velocity_slope(in.u[e], c, d);
-                          });
+      work.u_half[e][c] = in.u[e][c] + 0.5 * dt * a +
+                          advect_half(in.u, c, dt, [&](int d) { return reconstruction.velocity_slope(in.u[e], c, d); });
     });
   }
   for (int d = 0; d < Dim; ++d) {
     for_each<Face>(domain.layout(), grid.faces(d), [&](Face f) {
       const Cell high = high_cell(f);
       const Cell low = high - grid.step(d);
-      velocities.mac[d][f] = domain.aperture[d][f] > 0
-                                 ? upwind(reconstruction.face_velocity(work.u_half[d], in.u[d], low, d, 1),
-                                          reconstruction.face_velocity(work.u_half[d], in.u[d], high, d, -1),
-                                          in.rho[low], in.rho[high], in.total[low] < empty_fraction,
-                                          in.total[high] < empty_fraction)
-                                 : 0.0;
+      velocities.mac[d][f] =
+          domain.aperture[d][f] > 0
+              ? upwind(reconstruction.face_velocity(work.u_half[d], in.u[d], low, d, 1),
+                       reconstruction.face_velocity(work.u_half[d], in.u[d], high, d, -1), in.rho[low], in.rho[high],
+                       in.total[low] < empty_fraction, in.total[high] < empty_fraction)
+              : 0.0;
     });
   }
 }
@@ -265,14 +266,14 @@ void convect(const Domain<Dim>& domain, const std::vector<Species>& species, con
   }
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                                     \
-  template struct ConvectionWork<Dim>;                                                                                 \
-  template void predict_velocities(const Domain<Dim>&, const ConvectionInput<Dim>&, double, ConvectionWork<Dim>&,      \
-                                   FaceVelocities<Dim>&);                                                              \
-  template void split_velocities(const Domain<Dim>&, const ConvectionInput<Dim>&, const ConvectionWork<Dim>&,          \
-                                 FaceVelocities<Dim>&);                                                                \
-  template void convect(const Domain<Dim>&, const std::vector<Species>&, const ConvectionInput<Dim>&, double,          \
-                        const FaceVelocities<Dim>&, ConvectionWork<Dim>&, Fractions&, CellVectors<Dim>&,               \
+#define QUICKSAND_INSTANTIATE(Dim)                                                                                \
+  template struct ConvectionWork<Dim>;                                                                            \
+  template void predict_velocities(const Domain<Dim>&, const ConvectionInput<Dim>&, double, ConvectionWork<Dim>&, \
+                                   FaceVelocities<Dim>&);                                                         \
+  template void split_velocities(const Domain<Dim>&, const ConvectionInput<Dim>&, const ConvectionWork<Dim>&,     \
+                                 FaceVelocities<Dim>&);                                                           \
+  template void convect(const Domain<Dim>&, const std::vector<Species>&, const ConvectionInput<Dim>&, double,     \
+                        const FaceVelocities<Dim>&, ConvectionWork<Dim>&, Fractions&, CellVectors<Dim>&,          \
                         std::vector<double>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)

@@ -2,10 +2,10 @@
 /// \file
 /// Convection (44): second-order Godunov predictor and conservative update of fractions and momentum.
 ///
-/// Fractions move with planes (surface.hpp). Half-time velocities follow from limited slopes (monotonized central differences, MUSCL-Hancock) and the lagged
-/// acceleration. At the border of the liquid region D fluxes are two-sided: what the gas-side cell throws at the liquid
-/// enters with its own velocity, however the liquid moves, so that a collision shows as excess density for the
-/// redistribution to remove.
+/// Fractions move with planes (surface.hpp). Half-time velocities follow from limited slopes (monotonized central
+/// differences, MUSCL-Hancock) and the lagged acceleration. At the border of the liquid region D fluxes are two-sided:
+/// what the gas-side cell throws at the liquid enters with its own velocity, however the liquid moves, so that a
+/// collision shows as excess density for the redistribution to remove.
 #include <vector>
 
 #include "core/domain.hpp"
@@ -18,19 +18,19 @@ namespace quicksand {
 template <int Dim>
 struct ConvectionInput {
   const Fractions& phi;
-  const CellField& total;                  ///< sum of phi
+  const CellField& total;  ///< sum of phi
   const CellField& rho;
   const CellVectors<Dim>& u;
-  const CellVectors<Dim>& acceleration;    ///< (-grad P + div T) / rho - g of the last step, one ghost layer
-  const CellMask& liquid;                  ///< D
+  const CellVectors<Dim>& acceleration;  ///< (-grad P + div T) / rho - g of the last step, one ghost layer
+  const CellMask& liquid;                ///< D
 };
 
 /// Velocities at the faces: `mac` for the projection, and what crosses a face from either side.
 template <int Dim>
 struct FaceVelocities {
-  FaceScalars<Dim> mac;       ///< normal velocity, divergence-free in D after the MAC projection
-  FaceScalars<Dim> from_low;  ///< velocity >= 0 at which the cell below the face gives its content upwards
-  FaceScalars<Dim> from_high; ///< velocity <= 0 at which the cell above the face gives its content downwards
+  FaceScalars<Dim> mac;        ///< normal velocity, divergence-free in D after the MAC projection
+  FaceScalars<Dim> from_low;   ///< velocity >= 0 at which the cell below the face gives its content upwards
+  FaceScalars<Dim> from_high;  ///< velocity <= 0 at which the cell above the face gives its content downwards
 
   explicit FaceVelocities(const Layout<Dim>& layout) : mac(layout), from_low(layout), from_high(layout) {}
 };
@@ -39,15 +39,16 @@ struct FaceVelocities {
 template <int Dim>
 struct ConvectionWork {
   CellVectors<Dim> u_half;
-  std::vector<CellField> region;       ///< per species: sum of its and all earlier fractions
-  std::vector<Surface<Dim>> surface;   ///< planes of these regions
+  std::vector<CellField> region;      ///< per species: sum of its and all earlier fractions
+  std::vector<Surface<Dim>> surface;  ///< planes of these regions
   CellField outflow;
   std::vector<FaceScalars<Dim>> flux_low, flux_high;  ///< per species: volume per time given by the low and high cell
 
   ConvectionWork(const Layout<Dim>& layout, std::size_t n_species);
 };
 
-/// Normal face velocities at half time from both sides, upwinded into velocities.mac; also the half-time cell velocities.
+/// Normal face velocities at half time from both sides, upwinded into velocities.mac; also the half-time cell
+/// velocities.
 template <int Dim>
 void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, double dt, ConvectionWork<Dim>& work,
                         FaceVelocities<Dim>& velocities);

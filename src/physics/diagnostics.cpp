@@ -33,8 +33,8 @@ int axis_index(const Flow<Dim>& flow, int d) {
   return symmetric ? 0 : flow.domain().grid.owned_cells()[d] / 2;
 }
 
-/// Walks along d from cell `at` to where liquid, once met, ends: the interpolated crossing of the surface fraction. The low
-/// end of the axis if no liquid is met.
+/// Walks along d from cell `at` to where liquid, once met, ends: the interpolated crossing of the surface fraction. The
+/// low end of the axis if no liquid is met.
 template <int Dim>
 double liquid_end(const Flow<Dim>& flow, Index<Dim> at, int d) {
   const Grid<Dim>& grid = flow.domain().grid;
@@ -65,8 +65,7 @@ double potential_energy(const Flow<Dim>& flow) {
       Box<Dim> slab = grid.cells();
       slab.lo[d] = i;
       slab.hi[d] = i + 1;
-      const double mass =
-          sum<Cell>(grid.layout(), slab, [&](Cell c) { return flow.density()[c] * grid.volume(c); });
+      const double mass = sum<Cell>(grid.layout(), slab, [&](Cell c) { return flow.density()[c] * grid.volume(c); });
       energy -= mass * g * grid.centre_position(d, i);
     }
   }
@@ -117,8 +116,8 @@ Diagnostics diagnose(const Flow<Dim>& flow) {
   return result;
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                      \
-  template double species_volume(const Grid<Dim>&, const CellField&);   \
+#define QUICKSAND_INSTANTIATE(Dim)                                    \
+  template double species_volume(const Grid<Dim>&, const CellField&); \
   template Diagnostics diagnose(const Flow<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)

@@ -10,7 +10,7 @@ namespace quicksand {
 /// Integral and extreme values of the current state. Volumes and energies of axisymmetric flows are those of the whole
 /// circle.
 struct Diagnostics {
-  std::vector<double> volume;   ///< of each species inside the domain
+  std::vector<double> volume;  ///< of each species inside the domain
   double kinetic_energy = 0;
   double potential_energy = 0;  ///< -sum m g . x
   double max_speed = 0;         ///< where sum phi >= empty_fraction
@@ -20,8 +20,8 @@ struct Diagnostics {
   double radius_base = 0;       ///< where liquid ends along the lowest row of cells, going outwards
 };
 
-/// Measures the flow. The axis column is the one at x = x_min if that side is an axis or symmetry plane, else the middle
-/// one (the same for y); the lowest row runs through it.
+/// Measures the flow. The axis column is the one at x = x_min if that side is an axis or symmetry plane, else the
+/// middle one (the same for y); the lowest row runs through it.
 template <int Dim>
 Diagnostics diagnose(const Flow<Dim>& flow);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/vector_fields.hpp"
 #include "physics/viscous_functional.hpp"
 #include "solvers/anderson.hpp"
 #include "solvers/multigrid.hpp"
@@ -18,6 +19,9 @@ constexpr int max_linear_iterations = 400;
 /// Newton's method gives up, in favour of Anderson's, when a line search has halved the step this often.
 constexpr int max_halvings = 12;
 constexpr int anderson_depth = 5;
+/// A step that would change the velocity by less than this part of it is round-off: bodies in rigid motion have no
+/// stress to measure a gradient against.
+constexpr double smallest_change = 1e-12;
 
 /// Number of active elements that a cell is a corner of.
 template <int Dim>
@@ -77,19 +81,12 @@ struct Problem {
   const CellVectors<Dim>& u_hat;
   double dt;
   DiffusionWork<Dim>& work;
-  double target;  ///< gradient norm to reach
+  double target;      ///< gradient norm to reach
+  double least_drop;  ///< decrease of the functional that is round-off
 };
 
-template <int Dim>
-void add_scaled(const Problem<Dim>& p, const CellVectors<Dim>& x, double factor, const CellVectors<Dim>& y,
-                CellVectors<Dim>& result) {
-  for (int d = 0; d < Dim; ++d) {
-    for_each<Cell>(p.domain.layout(), p.work.matrix.box(),
-                   [&](Cell c) { result[d][c] = x[d][c] + factor * y[d][c]; });
-  }
-}
-
-/// Newton's method with backtracking on the functional. Returns whether the target was reached; u is never worse than before.
+/// Newton's method with backtracking on the functional. Returns whether the target was reached; u is never worse than
+/// before.
 template <int Dim>
 bool iterate_newton(const Problem<Dim>& p, int max_iterations, CellVectors<Dim>& u, DiffusionReport& report) {
   DiffusionWork<Dim>& work = p.work;
@@ -107,16 +104,16 @@ bool iterate_newton(const Problem<Dim>& p, int max_iterations, CellVectors<Dim>&
     report.linear_iterations += linear.iterations;
     ++report.iterations;
     const double descent = dot<Cell>(p.domain.layout(), work.matrix.box(), work.gradient, work.update);
+    if (std::abs(descent) <= p.least_drop) return true;
     if (!(descent > 0)) return false;
     // Differences of the functional below its round-off can't tell better from worse.
     const double noise = 1e-13 * std::abs(value);
     double length = 1;
     double trial_value = 0;
     int halvings = 0;
-    if(getenv("DBG")) fprintf(stderr,"newton %d norm %.3e target %.3e value %.6e descent %.3e lin %d conv %d res %.2e\n",k,norm,p.target,value,descent,linear.iterations,linear.converged,linear.residual);
     for (;; length *= 0.5, ++halvings) {
       if (halvings > max_halvings) return false;
-      add_scaled(p, u, -length, work.update, work.trial);
+      add_scaled(p.domain.layout(), work.matrix.box(), u, -length, work.update, work.trial);
       trial_value = evaluate_functional(p.domain, p.u_hat, work.trial, p.dt, work, work.trial_gradient);
       if (trial_value <= value - 1e-4 * length * descent + noise) break;
     }
@@ -135,7 +132,7 @@ template <int Dim>
 Eigen::VectorXd pack(const Problem<Dim>& p, const CellVectors<Dim>& u) {
   const Box<Dim>& box = p.work.matrix.box();
   Eigen::VectorXd x(Dim * box.size());
-  const detail::Rows<Dim> rows(p.domain.layout(), box);
+  const Rows<Dim> rows(p.domain.layout(), box);
   Eigen::Index k = 0;
   for (int d = 0; d < Dim; ++d) {
     for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
@@ -147,7 +144,7 @@ Eigen::VectorXd pack(const Problem<Dim>& p, const CellVectors<Dim>& u) {
 
 template <int Dim>
 void unpack(const Problem<Dim>& p, const Eigen::VectorXd& x, CellVectors<Dim>& u) {
-  const detail::Rows<Dim> rows(p.domain.layout(), p.work.matrix.box());
+  const Rows<Dim> rows(p.domain.layout(), p.work.matrix.box());
   Eigen::Index k = 0;
   for (int d = 0; d < Dim; ++d) {
     for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
@@ -165,7 +162,6 @@ bool iterate_picard(const Problem<Dim>& p, int max_iterations, bool accelerate, 
   for (int k = 0;; ++k) {
     evaluate_functional(p.domain, p.u_hat, u, p.dt, work, work.gradient);
     const double norm = gradient_norm(p.domain, work, work.gradient);
-    if(getenv("DBG")) fprintf(stderr,"picard %d norm %.3e target %.3e\n",k,norm,p.target);
     if (norm <= p.target) return true;
     if (k == max_iterations || !std::isfinite(norm)) return false;
     assemble_matrix(p.domain, u, p.dt, Linearisation::secant, work);
@@ -173,7 +169,9 @@ bool iterate_picard(const Problem<Dim>& p, int max_iterations, bool accelerate, 
     const SolveReport linear = solve_velocity(p.domain, work.matrix, work.gradient, work.update, 1e-3);
     report.linear_iterations += linear.iterations;
     ++report.iterations;
-    add_scaled(p, u, -1.0, work.update, work.trial);
+    if (std::abs(dot<Cell>(p.domain.layout(), work.matrix.box(), work.gradient, work.update)) <= p.least_drop)
+      return true;
+    add_scaled(p.domain.layout(), work.matrix.box(), u, -1.0, work.update, work.trial);
     if (accelerate) {
       unpack(p, anderson.next(pack(p, u), pack(p, work.trial)), u);
     } else {
@@ -194,8 +192,8 @@ DiffusionWork<Dim>::DiffusionWork(const Domain<Dim>& domain, const std::vector<S
       trial_gradient(domain.layout()),
       update(domain.layout()),
       trial(domain.layout()) {
-  const bool plastic = std::any_of(species.begin(), species.end(),
-                                   [](const Species& s) { return rheology(s.law).yield_stress > 0; });
+  const bool plastic =
+      std::any_of(species.begin(), species.end(), [](const Species& s) { return rheology(s.law).yield_stress > 0; });
   if (plastic) stress = Field<Node, PointStresses<Dim>>(domain.layout());
 }
 
@@ -210,7 +208,12 @@ DiffusionReport diffuse(const Domain<Dim>& domain, const CellField& rho, const C
   }
   DiffusionReport report;
   if (work.matrix.box().empty()) return report;
-  Problem<Dim> problem{domain, u_hat, dt, work, 0};
+  double twice_energy = 0;
+  for (int d = 0; d < Dim; ++d) {
+    twice_energy +=
+        sum<Cell>(domain.layout(), work.matrix.box(), [&](Cell c) { return work.mass[c] * u_hat[d][c] * u_hat[d][c]; });
+  }
+  Problem<Dim> problem{domain, u_hat, dt, work, 0, smallest_change * smallest_change * twice_energy};
   // Start from u^ or from the guess, whichever lies lower.
   const double value_hat = evaluate_functional(domain, u_hat, u_hat, dt, work, work.gradient);
   const double norm_hat = gradient_norm(domain, work, work.gradient);
@@ -236,9 +239,9 @@ DiffusionReport diffuse(const Domain<Dim>& domain, const CellField& rho, const C
   return report;
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                                    \
-  template struct DiffusionWork<Dim>;                                                                                 \
-  template DiffusionReport diffuse(const Domain<Dim>&, const CellField&, const CellVectors<Dim>&, double,             \
+#define QUICKSAND_INSTANTIATE(Dim)                                                                        \
+  template struct DiffusionWork<Dim>;                                                                     \
+  template DiffusionReport diffuse(const Domain<Dim>&, const CellField&, const CellVectors<Dim>&, double, \
                                    const DiffusionOptions&, DiffusionWork<Dim>&, CellVectors<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)

@@ -2,14 +2,15 @@
 /// \file
 /// Implicit viscoplastic diffusion (46)-(49) with theta = 1.
 ///
-/// u* minimises the convex functional  1/2 sum m |u - u^|^2 + dt sum_q W_q Phi(s_q)  over the cell velocities, with u^ of
-/// (47) without its stress, m = rho V, and Phi the potential of the law. Its gradient is the residual of (48).
+/// u* minimises the convex functional  1/2 sum m |u - u^|^2 + dt sum_q W_q Phi(s_q)  over the cell velocities, with u^
+/// of (47) without its stress, m = rho V, and Phi the potential of the law. Its gradient is the residual of (48).
 ///
-/// Deviates from the report: Newton's method with line search in place of the iteration (49), which takes tens to hundreds of
-/// steps where Newton takes five; (49) and its Anderson acceleration stay selectable, the latter is the fallback. Where the
-/// material yields the functional is nearly that of total variation, |Delta|, for which Newton's method is slow far from the
-/// solution; with the plastic stress as an unknown of its own (Chan, Golub and Mulet 1999) it is not. The law is
-/// evaluated on the composition phi_i / sum phi at full strength: (43b) describes sand thinned by water, not by void.
+/// Deviates from the report: Newton's method with line search in place of the iteration (49), which takes tens to
+/// hundreds of steps where Newton takes five; (49) and its Anderson acceleration stay selectable, the latter is the
+/// fallback. Where the material yields the functional is nearly that of total variation, |Delta|, for which Newton's
+/// method is slow far from the solution; with the plastic stress as an unknown of its own (Chan, Golub and Mulet 1999)
+/// it is not. The law is evaluated on the composition phi_i / sum phi at full strength: (43b) describes sand thinned by
+/// water, not by void.
 #include "core/domain.hpp"
 #include "physics/solver_settings.hpp"
 #include "physics/stress_elements.hpp"
@@ -44,11 +45,11 @@ template <int Dim>
 struct DiffusionWork {
   StressElements<Dim> elements;
   NodeField potential;  ///< dt W Phi summed over an element's points
-  /// The plastic stress as an unknown of its own, in the primal-dual Newton method; carried from step to step. Has a size
-  /// only when some species yields.
+  /// The plastic stress as an unknown of its own, in the primal-dual Newton method; carried from step to step. Has a
+  /// size only when some species yields.
   Field<Node, PointStresses<Dim>> stress;
   VelocityMatrix<Dim> matrix;
-  CellField mass;       ///< m in cells that take part, 0 elsewhere
+  CellField mass;  ///< m in cells that take part, 0 elsewhere
   CellVectors<Dim> gradient, trial_gradient, update, trial;
 
   DiffusionWork(const Domain<Dim>& domain, const std::vector<Species>& species);

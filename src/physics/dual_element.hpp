@@ -1,10 +1,10 @@
 #pragma once
 /// \file
-/// Bilinear (trilinear) elements on the dual mesh, whose corners are cell centres and, at the domain's boundary, points on the
-/// boundary. One element per node of the grid; the strain rate (30) is evaluated at the mid-points of its edges.
+/// Bilinear (trilinear) elements on the dual mesh, whose corners are cell centres and, at the domain's boundary, points
+/// on the boundary. One element per node of the grid; the strain rate (30) is evaluated at the mid-points of its edges.
 ///
-/// One point in the middle would leave a checkerboard of velocities without stress; mid-edge points do not, and where an
-/// element touches a wall two of them lie on it.
+/// One point in the middle would leave a checkerboard of velocities without stress; mid-edge points do not, and where
+/// an element touches a wall two of them lie on it.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -17,7 +17,7 @@ namespace quicksand {
 template <int Dim>
 inline constexpr int corner_count = 1 << Dim;
 template <int Dim>
-inline constexpr int point_count = Dim * (1 << (Dim - 1));
+inline constexpr int point_count = Dim*(1 << (Dim - 1));
 
 /// Shape functions and their derivatives at the mid-edge points of the unit element.
 template <int Dim>
@@ -60,8 +60,8 @@ inline constexpr MidEdgeShapes<Dim> mid_edge_shapes{};
 
 /// Where an element lies and which cells stand for its corners.
 ///
-/// A corner on the boundary has no velocity of its own: component e there is factor[k][e] times that of the cell next to it
-/// (0 where the wall holds it, 1 where it is free).
+/// A corner on the boundary has no velocity of its own: component e there is factor[k][e] times that of the cell next
+/// to it (0 where the wall holds it, 1 where it is free).
 template <int Dim>
 struct DualElement {
   Cell corner[corner_count<Dim>];

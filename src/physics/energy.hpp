@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Kinetic and potential energy of the mixture.
+/// Kinetic energy of the mixture.
 #include "core/domain.hpp"
 
 namespace quicksand {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "core/vector_fields.hpp"
 #include "physics/energy.hpp"
 
 namespace quicksand {
@@ -23,33 +24,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-/// to = from + factor * vector, a uniform vector.
-template <int Dim>
-void add_uniform(const Grid<Dim>& grid, const CellVectors<Dim>& from, double factor, const Vec<Dim>& vector,
-                 CellVectors<Dim>& to) {
-  for (int d = 0; d < Dim; ++d) {
-    for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c) { to[d][c] = from[d][c] + factor * vector[d]; });
-  }
-}
-
-/// to = from + factor * change
-template <int Dim>
-void add_fields(const Grid<Dim>& grid, const CellVectors<Dim>& from, double factor, const CellVectors<Dim>& change,
-                CellVectors<Dim>& to) {
-  for (int d = 0; d < Dim; ++d) {
-    for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c) { to[d][c] = from[d][c] + factor * change[d][c]; });
-  }
-}
-
-/// to = factor * (a - b)
-template <int Dim>
-void scaled_difference(const Grid<Dim>& grid, double factor, const CellVectors<Dim>& a, const CellVectors<Dim>& b,
-                       CellVectors<Dim>& to) {
-  for (int d = 0; d < Dim; ++d) {
-    for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c) { to[d][c] = factor * (a[d][c] - b[d][c]); });
-  }
-}
 
 /// Velocities where there is no mass mean nothing; zero keeps them from spreading.
 template <int Dim>
@@ -91,7 +65,7 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       face_velocities_(domain_.layout()),
       convection_(domain_.layout(), parameters_.species.size()),
       mac_(domain_.layout()),
-      redistribution_(domain_, parameters_.species.size()),
+      redistribution_(domain_, parameters_.species),
       diffusion_(domain_, parameters_.species),
       projection_(domain_.layout()) {
   state_.pressure.fill(parameters_.ambient_pressure);
@@ -117,13 +91,31 @@ void Flow<Dim>::initialize() {
   const Grid<Dim>& grid = domain_.grid;
   const CellVectors<Dim> none(domain_.layout());
   const double dt = 1;
-  add_uniform(grid, none, dt, parameters_.gravity, u_hat_);
+  add_uniform(grid.layout(), grid.cells(), none, dt, parameters_.gravity, u_hat_);
   require_converged(solve_pressure(domain_, u_hat_, rho_, liquid_, parameters_.ambient_pressure, dt, parameters_.linear,
                                    projection_, state_.pressure),
                     "initial pressure");
   add_pressure_gradient(domain_, state_.pressure, rho_, liquid_, -dt, u_hat_);
   state_.acceleration = u_hat_;
   refresh();
+}
+
+template <int Dim>
+StepReport Flow<Dim>::advance(double dt) {
+  try {
+    return step(dt);
+  } catch (const NumericalError&) {
+    forget_failed_step();
+    throw;
+  }
+}
+
+template <int Dim>
+void Flow<Dim>::forget_failed_step() {
+  for (CellField& H_i : redistribution_.H_species) H_i.fill(0);
+  mac_.potential.fill(0);
+  diffusion_.stress.fill({});
+  mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
 }
 
 /// One step of the report's algorithm:
@@ -137,10 +129,10 @@ void Flow<Dim>::initialize() {
 ///   u-bar*                lagged pressure gradient taken back              (52)
 ///   P^{n+1/2}, u^{n+1}    pressure and projection in D^{n+1}               (51), (50)
 ///
-/// Deviates from the report: gravity acts as -dt g, not as -dt rho^{n+1/2} / rho^{n+1} g, which grows without bound where a
-/// cell empties.
+/// Deviates from the report: gravity acts as -dt g, not as -dt rho^{n+1/2} / rho^{n+1} g, which grows without bound
+/// where a cell empties.
 template <int Dim>
-StepReport Flow<Dim>::advance(double dt) {
+StepReport Flow<Dim>::step(double dt) {
   const Grid<Dim>& grid = domain_.grid;
   const FlowParameters<Dim>& par = parameters_;
   StepReport report;
@@ -170,13 +162,13 @@ StepReport Flow<Dim>::advance(double dt) {
   clock(Phase::redistribute_momentum);
 
   next_.pressure = state_.pressure;
-  add_uniform(grid, u_bar_, dt, par.gravity, u_hat_);
+  add_uniform(grid.layout(), grid.cells(), u_bar_, dt, par.gravity, u_hat_);
   add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, -dt, u_hat_);
   CellVectors<Dim>& u_star = next_.u;
   u_star = u_hat_;
   if (mark_stress_elements(domain_, par.species, next_.phi, next_total_, diffusion_.elements)) {
     // The stress of the last step is the best guess of this one's.
-    add_fields(grid, u_bar_, dt, state_.acceleration, u_star);
+    add_scaled(grid.layout(), grid.cells(), u_bar_, dt, state_.acceleration, u_star);
     report.diffusion = diffuse(domain_, next_rho_, u_hat_, dt, par.diffusion, diffusion_, u_star);
     if (!report.diffusion.converged) throw NumericalError("viscoplastic diffusion did not converge");
   }
@@ -188,7 +180,7 @@ StepReport Flow<Dim>::advance(double dt) {
                                      projection_, next_.pressure);
   add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, -dt, next_.u);
   report.projection_energy_change = kinetic_energy(grid, next_rho_, next_.u) - energy_star;
-  scaled_difference(grid, 1 / dt, next_.u, u_bar_, next_.acceleration);
+  scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, u_bar_, next_.acceleration);
   require_finite(grid, next_);
   clock(Phase::projection);
 

@@ -19,11 +19,12 @@ namespace quicksand {
 template <int Dim>
 struct FlowParameters {
   std::vector<Species> species;
-  Vec<Dim> gravity;              ///< acceleration vector, downwards along the last axis as a rule
+  Vec<Dim> gravity;  ///< acceleration vector, downwards along the last axis as a rule
   double ambient_pressure = 0;
-  double liquid_threshold = 0.95;  ///< eps of D = {sum phi >= 1 - eps}
+  double liquid_threshold = 0.95;           ///< eps of D = {sum phi >= 1 - eps}
   SolveOptions linear{{.relative = 1e-9}};  ///< both projections
-  SolveOptions momentum{{.relative = 1e-13}, Method::jacobi};  ///< momentum redistribution; cheap, and energy hangs on it
+  SolveOptions momentum{{.relative = 1e-13},
+                        Method::jacobi};  ///< momentum redistribution; cheap, and energy hangs on it
   ObstacleOptions obstacle;
   DiffusionOptions diffusion;
 };
@@ -64,8 +65,9 @@ class Flow {
   /// Dual mesh and the rheology of its elements in the current state.
   const StressElements<Dim>& stress_elements() const { return diffusion_.elements; }
 
-  /// Makes the flow ready to advance after fractions and velocities of state() were set: everything that follows from the
-  /// fractions, and the pressure and acceleration under gravity. \throws NumericalError when the pressure solve fails
+  /// Makes the flow ready to advance after fractions and velocities of state() were set: everything that follows from
+  /// the fractions, and the pressure and acceleration under gravity. \throws NumericalError when the pressure solve
+  /// fails
   void initialize();
   /// Advances by dt. The state is left as it was when this throws.
   /// \throws NumericalError when a solve fails or a value is not finite
@@ -74,6 +76,10 @@ class Flow {
  private:
   /// Ghost cells, total(), density() and liquid() of the current state.
   void refresh();
+  /// The step itself: writes next_, then makes it the state.
+  StepReport step(double dt);
+  /// Forgets what a failed step left in work arrays that outlive it.
+  void forget_failed_step();
 
   Domain<Dim> domain_;
   FlowParameters<Dim> parameters_;

@@ -24,7 +24,8 @@ void assemble(const Domain<Dim>& domain, const CellField& rho, const CellMask& l
     for (int d = 0; d < Dim; ++d) {
       const double below = coefficient(d, low_face(c));
       diagonal += below + coefficient(d, low_face(c + grid.step(d)));
-      // A low neighbour beyond the owned box counts as q = 0: only gas lies there, or a closed side without coefficient.
+      // A low neighbour beyond the owned box counts as q = 0: only gas lies there, or a closed side without
+      // coefficient.
       matrix.lower[static_cast<std::size_t>(d)][c] = liquid[c] && liquid[c - grid.step(d)] ? -below : 0.0;
     }
     matrix.diagonal[c] = liquid[c] && diagonal > 0 ? diagonal : 1.0;
@@ -56,8 +57,8 @@ SolveReport project_face_velocities(const Domain<Dim>& domain, const CellField& 
     for_each<Face>(domain.layout(), grid.faces(d), [&](Face f) {
       const Cell high = high_cell(f);
       const Cell low = high - grid.step(d);
-      u_mac[d][f] -= mobility(domain, rho, liquid, d, f) * ((liquid[high] ? work.potential[high] : 0.0) -
-                                                            (liquid[low] ? work.potential[low] : 0.0));
+      u_mac[d][f] -= mobility(domain, rho, liquid, d, f) *
+                     ((liquid[high] ? work.potential[high] : 0.0) - (liquid[low] ? work.potential[low] : 0.0));
     });
   }
   return report;

@@ -26,24 +26,11 @@ void mark_liquid(const Grid<Dim>& grid, const CellField& total, double threshold
                  [&](Cell c) { liquid[c] = total[c] >= 1 - threshold ? 1 : 0; });
 }
 
-template <int Dim>
-bool fills_closed_domain(const Domain<Dim>& domain, const CellMask& region) {
-  for (int d = 0; d < Dim; ++d) {
-    for (int s = 0; s < 2; ++s) {
-      if (is_open(domain.sides.at(d, s))) return false;
-    }
-  }
-  const double outside = sum<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) { return region[c] ? 0.0 : 1.0; });
-  return outside == 0;
-}
-
 template void sum_fractions(const Grid<2>&, const Fractions&, CellField&);
 template void sum_fractions(const Grid<3>&, const Fractions&, CellField&);
 template void mix_density(const Grid<2>&, const std::vector<Species>&, const Fractions&, CellField&);
 template void mix_density(const Grid<3>&, const std::vector<Species>&, const Fractions&, CellField&);
 template void mark_liquid(const Grid<2>&, const CellField&, double, CellMask&);
 template void mark_liquid(const Grid<3>&, const CellField&, double, CellMask&);
-template bool fills_closed_domain(const Domain<2>&, const CellMask&);
-template bool fills_closed_domain(const Domain<3>&, const CellMask&);
 
 }  // namespace quicksand

@@ -22,13 +22,9 @@ void sum_fractions(const Grid<Dim>& grid, const Fractions& phi, CellField& total
 template <int Dim>
 void mix_density(const Grid<Dim>& grid, const std::vector<Species>& species, const Fractions& phi, CellField& rho);
 
-/// Liquid region D = {sum phi >= 1 - eps} (after (20)), ghosts included: mirrored liquid beyond closed sides, gas beyond open ones.
-/// \param threshold  eps
+/// Liquid region D = {sum phi >= 1 - eps} (after (20)), ghosts included: mirrored liquid beyond closed sides, gas
+/// beyond open ones. \param threshold  eps
 template <int Dim>
 void mark_liquid(const Grid<Dim>& grid, const CellField& total, double threshold, CellMask& liquid);
-
-/// Whether a region of cells fills the domain and touches no open side: its pressure is then free by a constant.
-template <int Dim>
-bool fills_closed_domain(const Domain<Dim>& domain, const CellMask& region);
 
 }  // namespace quicksand

@@ -3,8 +3,8 @@
 /// Pressure projection (50)-(52) with bilinear (trilinear) pressure on the nodes.
 ///
 /// The pressure is continuous and linear along each axis in a cell, its gradient in a cell is the element mean, and the
-/// divergence at a node is the adjoint. With exactly integrated stiffness this approximate projection (Almgren, Bell and
-/// Szymczak 1996) never raises the kinetic energy when the gas pressure is uniform.
+/// divergence at a node is the adjoint. With exactly integrated stiffness this approximate projection (Almgren, Bell
+/// and Szymczak 1996) never raises the kinetic energy when the gas pressure is uniform.
 #include "core/domain.hpp"
 #include "solvers/linear_solver.hpp"
 

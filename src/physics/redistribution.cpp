@@ -1,13 +1,14 @@
 #include "physics/redistribution.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace quicksand {
 
 namespace {
 
-/// Below this density a cell's velocity is the quotient of two round-off errors.
-constexpr double least_density = 1e-14;
+/// In cells filled less than this the velocity is the quotient of two round-off errors.
+constexpr double smallest_filling = 1e-12;
 
 /// -div grad in finite volumes; `rule(d, s)` gives the ghost rule (its alpha) on side s of axis d.
 template <int Dim, class Rule>
@@ -41,14 +42,16 @@ double apply_potential(const Domain<Dim>& domain, const CellField& H, StencilMat
   return sum<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) { return change[c]; });
 }
 
-/// Round-off can leave -1e-17 where a cell gave all it had: the largest neighbour makes up for it, so that nothing is
-/// cut off. Serial, because such cells are few.
+/// Round-off can leave -1e-17 where a cell gave all it had: the largest neighbour makes up for it. What no neighbour
+/// can give counts as having come in from outside. Serial, because such cells are few. \returns the volume that came in
+/// so
 template <int Dim>
-void settle_negative(const Domain<Dim>& domain, CellField& phi) {
+double settle_negative(const Domain<Dim>& domain, CellField& phi) {
   const Grid<Dim>& grid = domain.grid;
   const double deepest = -maximum<Cell>(domain.layout(), grid.cells(), 0.0, [&](Cell c) { return -phi[c]; });
-  if (deepest >= 0) return;
-  const detail::Rows<Dim> rows(domain.layout(), grid.cells());
+  double created = 0;
+  if (deepest >= 0) return created;
+  const Rows<Dim> rows(domain.layout(), grid.cells());
   for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
     for (int i = 0; i < rows.length; ++i) {
       const Cell c{rows.start(r) + i};
@@ -59,28 +62,33 @@ void settle_negative(const Domain<Dim>& domain, CellField& phi) {
         if (index[d] > 0 && phi[c - grid.step(d)] > phi[donor]) donor = c - grid.step(d);
         if (index[d] + 1 < grid.owned_cells()[d] && phi[c + grid.step(d)] > phi[donor]) donor = c + grid.step(d);
       }
-      if (donor == c) continue;
-      const double given = std::min(-phi[c] * grid.volume(c), std::max(phi[donor], 0.0) * grid.volume(donor));
-      phi[c] += given / grid.volume(c);
+      const double missing = -phi[c] * grid.volume(c);
+      const double given = std::min(missing, std::max(phi[donor], 0.0) * grid.volume(donor));
       phi[donor] -= given / grid.volume(donor);
+      phi[c] = 0;
+      created += missing - given;
     }
   }
+  return created;
 }
 
 }  // namespace
 
 template <int Dim>
-RedistributionWork<Dim>::RedistributionWork(const Domain<Dim>& domain, std::size_t n_species)
+RedistributionWork<Dim>::RedistributionWork(const Domain<Dim>& domain, const std::vector<Species>& species)
     : laplacian(domain.layout(), Stencil::star),
       momentum(static_cast<std::size_t>(Dim), StencilMatrix<Dim, Cell>(domain.layout(), Stencil::star)),
-      H_species(n_species, CellField(domain.layout())),
+      H_species(species.size(), CellField(domain.layout())),
       H(domain.layout()),
       excess(domain.layout()),
       system(domain.layout(), Stencil::star),
       y(domain.layout()),
       rhs(domain.layout()) {
+  least_density = std::numeric_limits<double>::infinity();
+  for (const Species& s : species) least_density = std::min(least_density, smallest_filling * s.density);
   const Grid<Dim>& grid = domain.grid;
-  assemble_laplacian(grid, [&](int d, int s) { return potential_rule(domain.sides.at(d, s)); }, laplacian);
+  assemble_laplacian(
+      grid, [&](int d, int s) { return potential_rule(domain.sides.at(d, s)); }, laplacian);
   for (int e = 0; e < Dim; ++e) {
     StencilMatrix<Dim, Cell>& matrix = momentum[static_cast<std::size_t>(e)];
     assemble_laplacian(
@@ -116,10 +124,11 @@ std::vector<ObstacleReport> redistribute_volume(const Domain<Dim>& domain, const
       work.excess[c] = (phi[i][c] - std::max(1 - taken, 0.0)) * grid.volume(c);
     });
     reports.push_back(solve_obstacle(work.laplacian, work.excess, grid.volumes(), H_i, options));
-    if (reports.back().trivial) continue;
-    escaped[i] += apply_potential(domain, H_i, work.laplacian, work.rhs, phi[i]);
-    settle_negative(domain, phi[i]);
-    for_each<Cell>(layout, grid.cells(), [&](Cell c) { work.H[c] += species[i].density * H_i[c]; });
+    if (!reports.back().trivial) {
+      escaped[i] += apply_potential(domain, H_i, work.laplacian, work.rhs, phi[i]);
+      for_each<Cell>(layout, grid.cells(), [&](Cell c) { work.H[c] += species[i].density * H_i[c]; });
+    }
+    escaped[i] -= settle_negative(domain, phi[i]);
   }
   return reports;
 }
@@ -156,18 +165,18 @@ SolveReport redistribute_momentum(const Domain<Dim>& domain, const CellVectors<D
     A.apply(work.y, work.rhs);
     for_each<Cell>(layout, grid.cells(), [&](Cell c) {
       const double momentum = momentum_tilde[e][c] - work.rhs[c] / grid.volume(c);
-      u_bar[e][c] = rho[c] > least_density ? momentum / rho[c] : 0.0;
+      u_bar[e][c] = rho[c] > work.least_density ? momentum / rho[c] : 0.0;
     });
   }
   return worst;
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                                    \
-  template struct RedistributionWork<Dim>;                                                                            \
-  template std::vector<ObstacleReport> redistribute_volume(const Domain<Dim>&, const std::vector<Species>&,           \
-                                                           const ObstacleOptions&, RedistributionWork<Dim>&,          \
-                                                           Fractions&, std::vector<double>&);                         \
-  template SolveReport redistribute_momentum(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&,           \
+#define QUICKSAND_INSTANTIATE(Dim)                                                                           \
+  template struct RedistributionWork<Dim>;                                                                   \
+  template std::vector<ObstacleReport> redistribute_volume(const Domain<Dim>&, const std::vector<Species>&,  \
+                                                           const ObstacleOptions&, RedistributionWork<Dim>&, \
+                                                           Fractions&, std::vector<double>&);                \
+  template SolveReport redistribute_momentum(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&,  \
                                              const SolveOptions&, RedistributionWork<Dim>&, CellVectors<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)

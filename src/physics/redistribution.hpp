@@ -14,15 +14,18 @@ namespace quicksand {
 /// The operator A = -div grad in finite volumes, H of every species (next step's guess), and work arrays.
 template <int Dim>
 struct RedistributionWork {
-  StencilMatrix<Dim, Cell> laplacian;                ///< for volume and tangential momentum
-  std::vector<StencilMatrix<Dim, Cell>> momentum;    ///< per velocity component: odd at closed sides it is normal to, hoop term
-  std::vector<CellField> H_species;                  ///< H_i of (25)
-  CellField H;                                       ///< (27)
-  CellField excess;                                  ///< (phi~ - limit) V
-  StencilMatrix<Dim, Cell> system;                   ///< V rho / H + A on {H > 0}
+  StencilMatrix<Dim, Cell> laplacian;  ///< for volume and tangential momentum
+  std::vector<StencilMatrix<Dim, Cell>>
+      momentum;                      ///< per velocity component: odd at closed sides it is normal to, hoop term
+  std::vector<CellField> H_species;  ///< H_i of (25)
+  CellField H;                       ///< (27)
+  CellField excess;                  ///< (phi~ - limit) V
+  StencilMatrix<Dim, Cell> system;   ///< V rho / H + A on {H > 0}
   CellField y, rhs;
 
-  RedistributionWork(const Domain<Dim>& domain, std::size_t n_species);
+  double least_density;  ///< cells of lower density are without momentum
+
+  RedistributionWork(const Domain<Dim>& domain, const std::vector<Species>& species);
 };
 
 /// Redistributes the fractions in place, species by species in the order of the successive constraint (24)-(25), and
@@ -37,11 +40,10 @@ std::vector<ObstacleReport> redistribute_volume(const Domain<Dim>& domain, const
 
 /// Redistributed velocity u-bar of (11): rho^{n+1} u-bar = rho~ u~ + lap(H u-bar).
 ///
-/// With y = H u-bar on {H > 0} the system (V rho / H + A) y = V rho~ u~ is symmetric positive definite; elsewhere u-bar is
-/// explicit. For the radial component A is that of the vector Laplacian (V / r^2 more).
-/// \param momentum_tilde  rho~ u~, owned cells
-/// \param rho             rho^{n+1}
-/// \param u_bar           on return u-bar; 0 in cells without mass
+/// With y = H u-bar on {H > 0} the system (V rho / H + A) y = V rho~ u~ is symmetric positive definite; elsewhere u-bar
+/// is explicit. For the radial component A is that of the vector Laplacian (V / r^2 more). \param momentum_tilde  rho~
+/// u~, owned cells \param rho             rho^{n+1} \param u_bar           on return u-bar; 0 in cells below
+/// least_density
 template <int Dim>
 SolveReport redistribute_momentum(const Domain<Dim>& domain, const CellVectors<Dim>& momentum_tilde,
                                   const CellField& rho, const SolveOptions& options, RedistributionWork<Dim>& work,

@@ -8,13 +8,13 @@ namespace quicksand {
 
 template <int Dim>
 struct State {
-  Fractions phi;                    ///< volume fractions, per species
-  CellVectors<Dim> u;               ///< velocity, cell centred
-  NodeField pressure;               ///< P^{n-1/2}
-  CellVectors<Dim> acceleration;    ///< (-grad P + div T) / rho - g of the last step: what changed u-bar into u
+  Fractions phi;                  ///< volume fractions, per species
+  CellVectors<Dim> u;             ///< velocity, cell centred
+  NodeField pressure;             ///< P^{n-1/2}
+  CellVectors<Dim> acceleration;  ///< (-grad P + div T) / rho - g of the last step: what changed u-bar into u
   double time = 0;
   long step = 0;
-  double dt = 0;                    ///< of the last step
+  double dt = 0;  ///< of the last step
 
   State(const Layout<Dim>& layout, std::size_t n_species)
       : phi(n_species, CellField(layout)), u(layout), pressure(layout), acceleration(layout) {}

@@ -2,6 +2,13 @@
 
 namespace quicksand {
 
+namespace {
+
+/// A regularised law reaches the yield stress nowhere; within a per cent of it the material counts as yielded.
+constexpr double yielding_share = 0.99;
+
+}  // namespace
+
 template <int Dim>
 StressFields evaluate_stress(const Flow<Dim>& flow) {
   const Grid<Dim>& grid = flow.domain().grid;
@@ -24,7 +31,7 @@ StressFields evaluate_stress(const Flow<Dim>& flow) {
         weights[c] += share;
         fields.viscosity[c] += share * f;
         fields.magnitude[c] += share * f * s;
-        fields.unyielded[c] += f * s < rheology.yield_stress ? share : 0.0;
+        fields.unyielded[c] += f * s < yielding_share * rheology.yield_stress ? share : 0.0;
       }
     }
   });

@@ -9,7 +9,7 @@ namespace quicksand {
 struct StressFields {
   CellField viscosity;  ///< effective viscosity f of (43a)
   CellField magnitude;  ///< sqrt(1/2 T:T) = f s
-  CellField unyielded;  ///< share of the points around the cell whose stress is below the yield stress (35b)
+  CellField unyielded;  ///< share of the points around the cell whose stress is below 0.99 of the yield stress (35b)
 };
 
 template <int Dim>

@@ -9,8 +9,8 @@
 
 namespace quicksand {
 
-/// An element carries stress only if all its corner cells hold more liquid. Thinner films at the surface of a body at rest
-/// would otherwise run down it in free fall; with 0.01 they carried off 0.4 % of slug F by t = 2.
+/// An element carries stress only if all its corner cells hold more liquid. Thinner films at the surface of a body at
+/// rest would otherwise run down it in free fall; with 0.01 they carried off 0.4 % of slug F by t = 2.
 inline constexpr double stressless_fraction = 1e-3;
 
 /// One entry per node of the grid, that is, per element of the dual mesh.
@@ -23,7 +23,11 @@ struct StressElements {
   NodeField part;                  ///< liquid that an inactive element leaves to each active neighbour
 
   explicit StressElements(const Domain<Dim>& domain)
-      : mesh(domain), active(domain.layout()), rheology(domain.layout()), share(domain.layout()), part(domain.layout()) {}
+      : mesh(domain),
+        active(domain.layout()),
+        rheology(domain.layout()),
+        share(domain.layout()),
+        part(domain.layout()) {}
 };
 
 /// The factor of (43b): (exp(kappa c) - 1) / (exp(kappa) - 1), c for kappa = 0.
@@ -31,12 +35,11 @@ double concentration_factor(double kappa, double c);
 
 /// Finds the active elements, their rheology and their shares for the given fractions.
 ///
-/// The law of an element follows from the mean composition c_i = phi_i / sum phi of its corner cells: viscosities and yield
-/// stresses of all species, each times (43b), add up; alpha is their mean weighted by yield stress. Elements with an (almost)
-/// empty corner, or whose law is inviscid, are inactive: their velocity gradient would mean nothing. The liquid in them is shared
-/// out among the active elements around them, so that the shares add up to the liquid's volume and a body keeps its strength
-/// up to its surface.
-/// \returns whether any element is active
+/// The law of an element follows from the mean composition c_i = phi_i / sum phi of its corner cells: viscosities and
+/// yield stresses of all species, each times (43b), add up; alpha is their mean weighted by yield stress. Elements with
+/// an (almost) empty corner, or whose law is inviscid, are inactive: their velocity gradient would mean nothing. The
+/// liquid in them is shared out among the active elements around them, so that the shares add up to the liquid's volume
+/// and a body keeps its strength up to its surface. \returns whether any element is active
 template <int Dim>
 bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>& species, const Fractions& phi,
                           const CellField& total, StressElements<Dim>& elements);

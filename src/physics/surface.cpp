@@ -6,12 +6,13 @@ namespace quicksand {
 
 namespace {
 
-/// Fractions closer than this to 0 or 1 count as uncut. No more than round-off: a film taken for uncut would be spread over its
-/// cell, that is lifted by half a cell, and surfaces at rest would gain energy from the films that round-off puts on them.
+/// Fractions closer than this to 0 or 1 count as uncut. No more than round-off: a film taken for uncut would be spread
+/// over its cell, that is lifted by half a cell, and surfaces at rest would gain energy from the films that round-off
+/// puts on them.
 constexpr double uncut = 1e-14;
 
-/// Outward normal times cell width along each axis, from differences of the fraction averaged over the 3^Dim block with weights
-/// 1-2-1 across (Youngs 1984).
+/// Outward normal times cell width along each axis, from differences of the fraction averaged over the 3^Dim block with
+/// weights 1-2-1 across (Youngs 1984).
 template <int Dim>
 Vec<Dim> youngs_normal(const Grid<Dim>& grid, const CellField& total, Cell c) {
   Vec<Dim> n;

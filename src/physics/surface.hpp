@@ -1,10 +1,11 @@
 #pragma once
 /// \file
-/// The liquid's surface as a plane in every cell it cuts (piecewise linear interface), for sharp transport of the fractions.
+/// The liquid's surface as a plane in every cell it cuts (piecewise linear interface), for sharp transport of the
+/// fractions.
 ///
-/// Deviates from the report, whose limited slopes smear the surface of a falling body over six cells within a second; see
-/// docs/numerics.md for what that does to the slug. Planes may overfill or overdraw a cell where they turn within a step:
-/// the redistribution and the outflow limit take care of both, so no direction splitting is needed.
+/// Deviates from the report, whose limited slopes smear the surface of a falling body over six cells within a second;
+/// see docs/numerics.md for what that does to the slug. Planes may overfill or overdraw a cell where they turn within a
+/// step: the redistribution and the outflow limit take care of both, so no direction splitting is needed.
 #include "core/domain.hpp"
 #include "physics/plane.hpp"
 
@@ -23,9 +24,8 @@ struct Surface {
 template <int Dim>
 void reconstruct_surface(const Grid<Dim>& grid, const CellField& total, Surface<Dim>& surface);
 
-/// Filled part of what crosses a face of cell c during dt: the slab of thickness |velocity| dt inside the face, with the
-/// plane moved by the transverse velocities to half time.
-/// \param side  +1: high face along d, -1: low face
+/// Filled part of what crosses a face of cell c during dt: the slab of thickness |velocity| dt inside the face, with
+/// the plane moved by the transverse velocities to half time. \param side  +1: high face along d, -1: low face
 template <int Dim>
 double swept_fraction(const Grid<Dim>& grid, const Surface<Dim>& surface, const CellField& total,
                       const CellVectors<Dim>& u, Cell c, int d, int side, double velocity, double dt) {

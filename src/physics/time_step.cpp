@@ -13,11 +13,11 @@ double stable_step(const Flow<Dim>& flow, double cfl) {
   for (int d = 0; d < Dim; ++d) {
     const double g = std::abs(flow.parameters().gravity[d]);
     rate = std::max(rate, maximum<Cell>(grid.layout(), grid.cells(), 0.0, [&](Cell c) {
-             if (flow.total()[c] < empty_fraction) return 0.0;
-             const double v = std::abs(state.u[d][c]) / grid.width(d, c);
-             const double a = std::max(std::abs(state.acceleration[d][c]), g) / grid.width(d, c);
-             return (v + std::sqrt(v * v + 2 * a * cfl)) / (2 * cfl);
-           }));
+                      if (flow.total()[c] < empty_fraction) return 0.0;
+                      const double v = std::abs(state.u[d][c]) / grid.width(d, c);
+                      const double a = std::max(std::abs(state.acceleration[d][c]), g) / grid.width(d, c);
+                      return (v + std::sqrt(v * v + 2 * a * cfl)) / (2 * cfl);
+                    }));
   }
   return rate > 0 ? 1 / rate : INFINITY;
 }

@@ -11,7 +11,8 @@ namespace quicksand {
 /// Symmetric matrix on cell vectors: Dim x Dim blocks on a box stencil.
 ///
 /// Row (c, a) couples to (c, b) by centre(a, b)(c), to (c - s_e, b) by lower(a, b, e)(c) and to (c + s_e, b) by
-/// lower(b, a, e)(c + s_e). The blocks of equal components are stencil matrices of their own, as a preconditioner wants them.
+/// lower(b, a, e)(c + s_e). The blocks of equal components are stencil matrices of their own, as a preconditioner wants
+/// them.
 template <int Dim>
 class VelocityMatrix {
  public:
@@ -26,9 +27,7 @@ class VelocityMatrix {
   const StencilMatrix<Dim, Cell>& component(int a) const { return diagonal_[at(a)]; }
   /// Coupling of components a and b in one cell; centre(a, b) and centre(b, a) are the same field.
   CellField& centre(int a, int b) { return a == b ? diagonal_[at(a)].diagonal : cross_centre_[pair(a, b)]; }
-  const CellField& centre(int a, int b) const {
-    return a == b ? diagonal_[at(a)].diagonal : cross_centre_[pair(a, b)];
-  }
+  const CellField& centre(int a, int b) const { return a == b ? diagonal_[at(a)].diagonal : cross_centre_[pair(a, b)]; }
   /// Coupling of component a in cell c with component b in cell c - s_e.
   CellField& lower(int a, int b, std::size_t e) {
     return a == b ? diagonal_[at(a)].lower[e] : cross_lower_[at(a * Dim + b)][e];

@@ -25,8 +25,8 @@ struct PointShapes {
   }
 };
 
-/// The factor k for which f_p I + k sym(S Delta) is the derivative of the plastic stress f_p Delta with respect to Delta, given
-/// its present estimate S; reduced where S is so large that the matrix would lose its definiteness.
+/// The factor k for which f_p I + k sym(S Delta) is the derivative of the plastic stress f_p Delta with respect to
+/// Delta, given its present estimate S; reduced where S is so large that the matrix would lose its definiteness.
 template <int Dim>
 double plastic_coefficient(const LawValue& law, const StrainRate<Dim>& s, const StrainRate<Dim>& stress) {
   const double largest = law.plastic * law.plastic / -law.slope;
@@ -35,7 +35,8 @@ double plastic_coefficient(const LawValue& law, const StrainRate<Dim>& s, const 
   return reduction * law.slope / (law.plastic * s.scalar);
 }
 
-/// Stiffness of one element, [corner a][corner b][component][component]; filled for a >= b, the rest follows by symmetry.
+/// Stiffness of one element, [corner a][corner b][component][component]; filled for a >= b, the rest follows by
+/// symmetry.
 template <int Dim>
 using ElementMatrix = double[corner_count<Dim>][corner_count<Dim>][Dim][Dim];
 
@@ -88,8 +89,8 @@ struct OffsetTable {
   }
 };
 
-/// Adds an element's stiffness to the matrix. Corners on the boundary share the cells of others, so that two corners may
-/// be one cell, or lie the other way round than their numbers.
+/// Adds an element's stiffness to the matrix. Corners on the boundary share the cells of others, so that two corners
+/// may be one cell, or lie the other way round than their numbers.
 template <int Dim>
 void scatter(const DualElement<Dim>& e, const ElementMatrix<Dim>& K, const OffsetTable<Dim>& table,
              VelocityMatrix<Dim>& matrix) {
@@ -237,12 +238,12 @@ void update_plastic_stress(const Domain<Dim>& domain, const CellVectors<Dim>& u,
   });
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                                    \
-  template double evaluate_functional(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&, double,   \
-                                      DiffusionWork<Dim>&, CellVectors<Dim>&);                                        \
-  template void assemble_matrix(const Domain<Dim>&, const CellVectors<Dim>&, double, Linearisation,                   \
-                                DiffusionWork<Dim>&);                                                                 \
-  template void update_plastic_stress(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&,           \
+#define QUICKSAND_INSTANTIATE(Dim)                                                                                  \
+  template double evaluate_functional(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&, double, \
+                                      DiffusionWork<Dim>&, CellVectors<Dim>&);                                      \
+  template void assemble_matrix(const Domain<Dim>&, const CellVectors<Dim>&, double, Linearisation,                 \
+                                DiffusionWork<Dim>&);                                                               \
+  template void update_plastic_stress(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&,         \
                                       DiffusionWork<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)

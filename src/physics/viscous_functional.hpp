@@ -8,7 +8,8 @@ namespace quicksand {
 /// Which linearisation of the stress a matrix holds.
 enum class Linearisation {
   secant,   ///< f(s) frozen: the report's iteration (49)
-  tangent,  ///< with f'(s), one of the two strains in f'(s)/s Delta Delta replaced by work.stress / f: primal-dual Newton
+  tangent,  ///< with f'(s), one of the two strains in f'(s)/s Delta Delta replaced by work.stress / f: primal-dual
+            ///< Newton
 };
 
 /// Value of the functional at u, and its gradient (0 in cells that take no part).

@@ -265,7 +265,7 @@ struct Multigrid<Dim, At>::Hierarchy {
   /// Copies rows between a field and the gapless array hypre takes: axes_ of one cell vanish by themselves.
   template <class FieldType, class Copy>
   void for_each_row(FieldType& field, Copy&& copy) {
-    const detail::Rows<Dim> rows(layout_, box_);
+    const Rows<Dim> rows(layout_, box_);
     for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
       copy(&field[At{rows.start(r)}], values_.data() + r * rows.length, rows.length);
     }

@@ -39,7 +39,7 @@ void remove_mean(const StencilMatrix<Dim, At>& matrix, Field<At>& x) {
 /// The first coupled row of a matrix that has any.
 template <int Dim, class At>
 At first_coupled(const StencilMatrix<Dim, At>& matrix) {
-  const detail::Rows<Dim> rows(matrix.layout, matrix.box);
+  const Rows<Dim> rows(matrix.layout, matrix.box);
   for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
     for (int i = 0; i < rows.length; ++i) {
       const At p{rows.start(r) + i};

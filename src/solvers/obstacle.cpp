@@ -53,6 +53,8 @@ class ObstacleSolver {
       if (!good || report_.iterations > patience) {
         sweep();
         sweep();
+        // They may have wetted the border, whose neighbours then take part.
+        work_ = intersect(grow(work_, 1), matrix_.box);
       }
       matrix_.residual(b_, potential_, r_, work_);
       report_.violation = largest_violation();
@@ -185,7 +187,7 @@ class ObstacleSolver {
     pinned_.reset();
     if (!closed_ || !(box_ == matrix_.box)) return;
     double least = std::numeric_limits<double>::max();
-    const detail::Rows<Dim> rows(layout_, box_);
+    const Rows<Dim> rows(layout_, box_);
     Cell emptiest;
     for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
       for (int i = 0; i < rows.length; ++i) {
@@ -252,7 +254,7 @@ class ObstacleSolver {
   bool update_set() {
     std::vector<Cell> overfull;
     bool changed = false;
-    const detail::Rows<Dim> rows(layout_, work_);
+    const Rows<Dim> rows(layout_, work_);
     for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
       for (int i = 0; i < rows.length; ++i) {
         const Cell c{rows.start(r) + i};
@@ -319,7 +321,7 @@ class ObstacleSolver {
   int max_iterations_;
   double tolerance_;
   CellField b_;
-  CellField r_;  ///< b - A H on work_, b elsewhere
+  CellField r_;  ///< b - A H on work_
   CellField step_, work_vector_;
   CellMask set_;
   Box<Dim> box_;   ///< of the set

@@ -46,7 +46,7 @@ Anisotropy anisotropy(const StencilMatrix<Dim, At>& star, int d, int e) {
   std::vector<double> along_d(static_cast<std::size_t>(star.box.extent(d)));
   std::vector<double> along_e(static_cast<std::size_t>(star.box.extent(e)));
   Anisotropy result;
-  const detail::Rows<Dim> rows(star.layout, star.box);
+  const Rows<Dim> rows(star.layout, star.box);
   for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
     Index<Dim> index = star.layout.multi(rows.start(r));
     for (int i = 0; i < rows.length; ++i, ++index[0]) {
@@ -100,7 +100,7 @@ bool is_line(const Box<Dim>& box) {
 /// Calls body(p, number) for all points of the box, numbered one after the other.
 template <class At, int Dim, class Body>
 void for_each_numbered(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
-  const detail::Rows<Dim> rows(layout, box);
+  const Rows<Dim> rows(layout, box);
   int number = 0;
   for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
     for (int i = 0; i < rows.length; ++i) body(At{rows.start(r) + i}, number++);

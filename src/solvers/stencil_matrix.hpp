@@ -67,7 +67,7 @@ template <class At, int Dim, class Inside>
 Box<Dim> bounding_box(const Layout<Dim>& layout, const Box<Dim>& box, Inside&& inside) {
   Box<Dim> found{box.hi, box.lo};
   // Row by row along axis 0; serial, because a minimum over multi-indices is not worth a reduction of its own.
-  const detail::Rows<Dim> rows(layout, box);
+  const Rows<Dim> rows(layout, box);
   for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
     const std::ptrdiff_t start = rows.start(r);
     int first = 0;

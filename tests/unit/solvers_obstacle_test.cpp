@@ -32,7 +32,7 @@ struct Problem {
   Problem(Grid<Dim> grid_in, Excess&& excess)
       : grid(std::move(grid_in)), matrix(cell_laplacian(grid, everywhere)), b(grid.layout()), H(grid.layout()) {
     const Box<Dim> box = grid.cells();
-    const detail::Rows<Dim> rows(grid.layout(), box);
+    const Rows<Dim> rows(grid.layout(), box);
     for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
       Index<Dim> index = grid.layout().multi(rows.start(r));
       for (int i = 0; i < rows.length; ++i, ++index[0]) {
