@@ -58,14 +58,12 @@ void check_grid(const GridConfig& grid, Reading& reading) {
       grid.x.front().from.value_or(0) < 0) {
     reading.problem("grid.x", "must not begin at a negative radius, " + shortest(*grid.x.front().from));
   }
-  double cells = 1;
-  for (const auto* axis : {&grid.x, &grid.y, &grid.z}) {
-    double sum = 0;
-    for (const AxisSegment& segment : *axis) sum += segment.cells;
-    if (!axis->empty()) cells *= sum;
-  }
+  const double cells = count_cells(grid);
   if (cells > most_cells) reading.problem("grid", "has " + shortest(cells) + " cells; at most " + shortest(most_cells));
 }
+
+/// Whether two pressures differ by no more than the conversion of units may cause.
+bool same_pressure(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
 
 void check_boundaries(const CaseConfig& config, Reading& reading) {
   const GridConfig& grid = config.grid;
@@ -98,6 +96,12 @@ void check_boundaries(const CaseConfig& config, Reading& reading) {
     }
     if (!is_axis && has_axis && path == "boundaries.x_min") {
       reading.problem(path, "must be axis: the axisymmetric grid begins at x = 0");
+    }
+    if (side->kind == SideKind::open && reading.clean("ambient_pressure") &&
+        !same_pressure(side->pressure, config.ambient_pressure)) {
+      reading.problem(path + ".open", "must be ambient_pressure = " + shortest(config.ambient_pressure) + ", not " +
+                                          shortest(side->pressure) +
+                                          ": another pressure outside an open side is not implemented");
     }
   }
 }

@@ -104,6 +104,12 @@ Geometry geometry_of(const GridConfig& config);
 /// \throws InputError where a smooth segment can't match its neighbour
 std::vector<double> make_faces(const std::vector<AxisSegment>& segments);
 
+/// Cells along each of a grid's axes: x, z, or x, y, z.
+std::vector<long> axis_cells(const GridConfig& config);
+
+/// Number of cells; a floating-point number because a wrong case may have any number of them.
+double count_cells(const GridConfig& config);
+
 /// The box of space that the grid fills; y is [0, 1] in two dimensions.
 Extent domain_of(const GridConfig& config);
 

@@ -1,14 +1,19 @@
 #include "app/case_report.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <numbers>
 #include <sstream>
-#include <type_traits>
 
+#include "app/build_flow.hpp"
+#include "app/time_control.hpp"
 #include "core/config_node.hpp"
 #include "core/snapshot.hpp"
+#include "physics/time_step.hpp"
 
 namespace quicksand {
 
@@ -18,6 +23,9 @@ namespace {
 constexpr double base_fields = 60;
 constexpr double fields_per_axis = 30;
 constexpr double fields_per_species = 10;
+
+/// Megabytes of a case up to which its flow is built to find the first step; larger ones take too long.
+constexpr double most_memory_to_build = 500;
 
 /// Cells between liquid and an open side below which a case is suspect.
 constexpr int least_air_cells = 2;
@@ -66,48 +74,94 @@ InitialState<Dim> fill_cells(const CaseConfig& config) {
   return state;
 }
 
-template <int Dim>
-std::string cells_text(const Grid<Dim>& grid) {
+std::string cells_text(const GridConfig& grid) {
   std::string text;
-  for (int d = 0; d < Dim; ++d) text += (d > 0 ? " x " : "") + std::to_string(grid.global_cells()[d]);
-  return text + " = " + std::to_string(grid.cells().size());
+  for (const long n : axis_cells(grid)) text += (text.empty() ? "" : " x ") + std::to_string(n);
+  return text + " = " + std::to_string(static_cast<long>(count_cells(grid)));
 }
+
+double smallest_width(const GridConfig& grid) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto* axis : {&grid.x, &grid.y, &grid.z}) {
+    if (axis->empty()) continue;
+    const std::vector<double> faces = make_faces(*axis);
+    for (std::size_t i = 1; i < faces.size(); ++i) smallest = std::min(smallest, faces[i] - faces[i - 1]);
+  }
+  return smallest;
+}
+
+/// Estimate of the megabytes that a run needs.
+double needed_memory(const CaseConfig& config) {
+  double cells = 1;
+  for (const long n : axis_cells(config.grid)) cells *= static_cast<double>(n + 2 * ghosts);
+  const double fields = base_fields + fields_per_axis * config.grid.dimension +
+                        fields_per_species * static_cast<double>(config.species.size());
+  return fields * sizeof(double) * cells / 1e6;
+}
+
+double machine_memory() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 1e6;
+}
+
+/// Whether a grid of the case may be allocated.
+bool fits(const CaseConfig& config) { return needed_memory(config) <= machine_memory(); }
 
 /// Volume over one radian to that of the whole body of revolution.
 double full_turn(const GridConfig& grid) { return grid.geometry == Geometry::axisymmetric ? 2 * std::numbers::pi : 1; }
 
+/// A line per species; with the volumes at the start where the grid fits into memory.
+template <int Dim>
+std::string species_text(const CaseConfig& config) {
+  std::vector<double> volumes;
+  if (fits(config)) volumes = fill_cells<Dim>(config).volumes;
+  std::ostringstream out;
+  for (const Species& species : config.species) {
+    out << "species        " << species.name << ": density " << shortest(species.density) << ", "
+        << law_text(species.law);
+    double volume = 0;
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+      if (config.initial[i].fill == species.name) volume += volumes[i];
+    }
+    if (!volumes.empty()) {
+      out << "; initial volume " << brief(volume * full_turn(config.grid))
+          << (Dim == 2 && config.grid.geometry == Geometry::planar ? " per unit of depth" : "");
+    }
+    out << "\n";
+  }
+  return out.str();
+}
+
+/// The first step by CFL number, as the run takes it.
+template <int Dim>
+double first_step(const CaseConfig& config) {
+  const Flow<Dim> flow = build_flow<Dim>(config);
+  TimeControl control(config.time, config.output.fields);
+  control.output_due(0);
+  return control.next_step(0, 0, stable_step(flow, control.cfl()));
+}
+
+template <int Dim>
+std::string time_step_text(const CaseConfig& config) {
+  const TimeSettings& time = config.time;
+  if (time.step) return shortest(*time.step) + ", " + brief(std::ceil(time.end / *time.step - 1e-3)) + " steps";
+  const std::string text = "CFL number " + shortest(*time.cfl) + ", at most " + shortest(*time.max_step);
+  if (needed_memory(config) > most_memory_to_build) return text;
+  return text + "; first " + brief(first_step<Dim>(config));
+}
+
 template <int Dim>
 std::string report(const CaseConfig& config) {
-  const InitialState<Dim> state = fill_cells<Dim>(config);
-  const double species_count = static_cast<double>(config.species.size());
-  const double fields = base_fields + fields_per_axis * Dim + fields_per_species * species_count;
-  const double megabytes = fields * sizeof(double) * static_cast<double>(state.grid.layout().size()) / 1e6;
   std::ostringstream out;
   out << "title          " << config.title << "\n"
       << "units          " << (config.units == UnitSystem::si ? "SI" : "none") << "\n"
       << "dimension      " << Dim << "\n"
-      << "geometry       " << geometry_name(state.grid.geometry()) << "\n"
-      << "cells          " << cells_text(state.grid) << "\n"
-      << "smallest cell  " << brief(state.grid.smallest_width()) << "\n"
-      << "memory         about " << brief(megabytes) << " MB\n";
-  for (const Species& species : config.species) {
-    double volume = 0;
-    for (std::size_t i = 0; i < config.initial.size(); ++i) {
-      if (config.initial[i].fill == species.name) volume += state.volumes[i];
-    }
-    out << "species        " << species.name << ": density " << shortest(species.density) << ", "
-        << law_text(species.law) << "; initial volume " << brief(volume * full_turn(config.grid))
-        << (Dim == 2 && config.grid.geometry == Geometry::planar ? " per unit of depth" : "") << "\n";
-  }
-  out << "end of run     " << shortest(config.time.end) << "\n";
-  if (config.time.step) {
-    out << "time step      " << shortest(*config.time.step) << ", "
-        << brief(std::ceil(config.time.end / *config.time.step - 1e-9)) << " steps\n";
-  } else {
-    out << "time step      CFL number " << shortest(*config.time.cfl) << ", at most " << shortest(*config.time.max_step)
-        << "\n";
-  }
-  out << "output folder  " << config.output.directory << "\n";
+      << "geometry       " << geometry_name(geometry_of(config.grid)) << "\n"
+      << "cells          " << cells_text(config.grid) << "\n"
+      << "smallest cell  " << brief(smallest_width(config.grid)) << "\n"
+      << "memory         about " << brief(needed_memory(config)) << " MB\n"
+      << species_text<Dim>(config) << "end of run     " << shortest(config.time.end) << "\n"
+      << "time step      " << time_step_text<Dim>(config) << "\n"
+      << "output folder  " << config.output.directory << "\n";
   return out.str();
 }
 
@@ -125,6 +179,10 @@ bool liquid_near(const InitialState<Dim>& state, int d, int side) {
 
 template <int Dim>
 std::vector<std::string> warnings(const CaseConfig& config) {
+  if (!fits(config)) {
+    return {"the run needs about " + brief(needed_memory(config)) + " MB of memory, and this machine has " +
+            brief(machine_memory()) + " MB"};
+  }
   std::vector<std::string> found;
   const InitialState<Dim> state = fill_cells<Dim>(config);
   for (std::size_t i = 0; i < config.initial.size(); ++i) {
@@ -145,10 +203,6 @@ std::vector<std::string> warnings(const CaseConfig& config) {
       if (liquid_near(state, d, s)) {
         found.push_back("liquid begins less than " + std::to_string(least_air_cells) + " cells from the open side " +
                         name);
-      }
-      if (sides.at(d, s).pressure != config.ambient_pressure) {
-        found.push_back("the pressure outside the open side " + name + ", " + shortest(sides.at(d, s).pressure) +
-                        ", is not ambient_pressure, " + shortest(config.ambient_pressure));
       }
     }
   }

@@ -1,5 +1,6 @@
 #include "app/command_line.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <ostream>
 #include <system_error>
@@ -105,14 +106,14 @@ void read_option(const std::string& argument, ArgumentReader& reader, const std:
   if (option == "--set") {
     line.settings.push_back(reader.value(option, attached));
   } else if (option == "--output") {
-    line.run.output = reader.value(option, attached);
-    if (line.run.output->empty()) throw InputError("--output must not be empty");
+    line.output = reader.value(option, attached);
+    if (line.output->empty()) throw InputError("--output must not be empty");
   } else if (option == "--threads") {
     line.run.threads = parse_threads(reader.value(option, attached));
   } else if (has_value) {
     throw InputError(option + " takes no value");
   } else {
-    (option == "--overwrite" ? line.run.overwrite : line.run.quiet) = true;
+    (option == "--overwrite" ? line.overwrite : line.run.quiet) = true;
   }
 }
 
@@ -133,11 +134,12 @@ std::string version_text() {
 
 int run(const CommandLine& line, std::ostream& err) {
   CaseConfig config = read_case(line.path, line.settings);
-  if (line.run.output) config.output.directory = *line.run.output;
+  if (line.output) config.output.directory = *line.output;
+  protect_case_file(line.path, config.output.directory);
   if (!line.run.quiet) {
     for (const std::string& warning : case_warnings(config)) err << "warning: " << warning << "\n";
   }
-  prepare_output_folder(config.output.directory, line.run.overwrite);
+  prepare_output_folder(config.output.directory, line.overwrite);
   return run_case(config, line.run);
 }
 
@@ -194,7 +196,8 @@ std::string usage() {
          "  --threads N           number of threads\n"
          "  --quiet               no warnings, no progress\n"
          "\n"
-         "exit codes: 0 finished, 2 bad input, 3 numerical failure, 4 input/output failure\n";
+         "exit codes: 0 finished, 2 bad input, 3 numerical failure, 4 input/output failure,\n"
+         "            128 + signal where SIGINT or SIGTERM ended the run after a step\n";
 }
 
 int execute(const CommandLine& line, std::ostream& out, std::ostream& err) {

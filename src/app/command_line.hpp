@@ -2,6 +2,7 @@
 /// \file
 /// The program's commands and options.
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct CommandLine {
   Command command = Command::help;
   std::string path;                   ///< case file, or for info a result folder or field file
   std::vector<std::string> settings;  ///< of --set, in order
+  std::optional<std::string> output;  ///< folder of the results instead of the case's
+  bool overwrite = false;             ///< replace results in the output folder
   RunOptions run;
 };
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "app/case_config.hpp"
 #include "core/config_node.hpp"
@@ -97,6 +98,22 @@ std::vector<double> make_faces(const std::vector<AxisSegment>& segments) {
     }
   }
   return faces;
+}
+
+std::vector<long> axis_cells(const GridConfig& config) {
+  std::vector<long> cells;
+  for (const auto* axis : {&config.x, &config.y, &config.z}) {
+    if (axis->empty()) continue;
+    cells.push_back(std::accumulate(axis->begin(), axis->end(), 0L,
+                                    [](long n, const AxisSegment& segment) { return n + segment.cells; }));
+  }
+  return cells;
+}
+
+double count_cells(const GridConfig& config) {
+  double cells = 1;
+  for (const long n : axis_cells(config)) cells *= static_cast<double>(n);
+  return cells;
 }
 
 Extent domain_of(const GridConfig& config) {

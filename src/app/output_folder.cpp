@@ -52,4 +52,15 @@ void prepare_output_folder(const std::string& folder, bool overwrite) {
   }
 }
 
+void protect_case_file(const std::string& case_file, const std::string& folder) {
+  std::error_code code;
+  // A link is protected as well as the file it leads to.
+  for (const fs::path& file : {fs::absolute(case_file), fs::weakly_canonical(case_file, code)}) {
+    if (is_result(file) && fs::equivalent(file.parent_path(), folder, code)) {
+      throw InputError(case_file + ": the run would write over this case file, which lies in the output folder " +
+                       folder + "; rename it, or choose another folder with --output");
+    }
+  }
+}
+
 }  // namespace quicksand

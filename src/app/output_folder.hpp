@@ -11,4 +11,8 @@ namespace quicksand {
 /// \throws FileError if it can't be made or written to
 void prepare_output_folder(const std::string& folder, bool overwrite);
 
+/// Makes sure that a run into the folder does not replace or remove the case file it reads.
+/// \throws InputError if the file lies in the folder under a name that runs write
+void protect_case_file(const std::string& case_file, const std::string& folder);
+
 }  // namespace quicksand

@@ -2,15 +2,17 @@
 
 #include <cmath>
 #include <filesystem>
-#include <numbers>
+#include <new>
 
 #include "app/build_flow.hpp"
+#include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/result_writer.hpp"
 #include "app/run_statistics.hpp"
 #include "app/time_control.hpp"
 #include "core/errors.hpp"
 #include "core/threads.hpp"
+#include "physics/energy.hpp"
 #include "physics/time_step.hpp"
 
 namespace quicksand {
@@ -29,70 +31,136 @@ std::vector<double> volumes_with_escaped(const Flow<Dim>& flow) {
   return volume;
 }
 
+/// What changes of energy are compared with: kinetic energy, and what the whole mass gains falling through the domain,
+/// sum of mass |g_d| length_d. Per radian in axisymmetric flows.
+template <int Dim>
+double energy_scale(const Flow<Dim>& flow) {
+  const Grid<Dim>& grid = flow.domain().grid;
+  const double mass =
+      sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return flow.density()[c] * grid.volume(c); });
+  double scale = kinetic_energy(grid, flow.density(), flow.state().u);
+  for (int d = 0; d < Dim; ++d) {
+    const std::vector<double>& faces = grid.global_faces(d);
+    scale += mass * std::abs(flow.parameters().gravity[d]) * (faces.back() - faces.front());
+  }
+  return scale;
+}
+
+/// A run on its way: the parts that the functions below share.
+template <int Dim>
+struct Run {
+  const CaseConfig& config;
+  ResultWriter<Dim> writer;
+  TimeControl control;
+  RunStatistics statistics;
+  Progress progress;
+};
+
 /// Advances by at most dt: a failed step is tried again with half of it. \throws NumericalError when all tries fail
 template <int Dim>
-StepReport advance_with_retries(Flow<Dim>& flow, double dt, RunStatistics& statistics, Progress& progress) {
+StepReport advance_with_retries(Flow<Dim>& flow, double dt, Run<Dim>& run) {
   for (int halvings = 0;; ++halvings) {
     try {
       return flow.advance(dt);
     } catch (const NumericalError& error) {
       if (halvings == most_halvings) throw;
-      progress.say("step " + std::to_string(flow.state().step + 1) + ": " + error.what() + "; trying again with dt " +
-                   number_text(dt / 2));
-      statistics.count_retry();
       dt /= 2;
+      if (dt < run.control.least_step()) {
+        throw NumericalError(std::string(error.what()) + "; half the step, " + number_text(dt) +
+                             ", is below the least that is tried, " + number_text(run.control.least_step()));
+      }
+      run.progress.say("step " + std::to_string(flow.state().step + 1) + ": " + error.what() +
+                       "; trying again with dt " + number_text(dt));
+      run.statistics.count_retry();
     }
   }
 }
 
 template <int Dim>
+void write_fields(const Flow<Dim>& flow, Run<Dim>& run) {
+  run.progress.wrote(flow.state().time, flow.state().step, run.writer.write_fields(flow).string());
+}
+
+/// One step and what is written after it. \return whether fields were
+template <int Dim>
+bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
+  const State<Dim>& state = flow.state();
+  const double stable = stable_step(flow, run.control.cfl());
+  const StepReport report = advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable), run);
+  if (run.control.beyond_limit(state.dt, stable) && run.statistics.count_step_beyond_cfl() == 1) {
+    run.progress.say("warning: step " + std::to_string(state.step) + ": dt " + number_text(state.dt) +
+                     " exceeds the CFL limit of convection, " + number_text(stable) +
+                     "; further such steps are only counted, in summary.json");
+  }
+  run.statistics.add(report, volumes_with_escaped(flow), state.time);
+  run.writer.append_history(flow, diagnose(flow), report);
+  run.progress.step(state.time, state.step, state.dt);
+  const bool due = run.control.output_due(state.time);
+  if (due) write_fields(flow, run);
+  return due;
+}
+
+/// Takes all steps, or as many as the user lets it. \return whether the end was reached
+template <int Dim>
+bool march(Run<Dim>& run) {
+  Flow<Dim> flow = build_flow<Dim>(run.config);
+  run.statistics.start(volumes_with_escaped(flow), energy_scale(flow));
+  run.control.output_due(0);
+  write_fields(flow, run);
+  run.writer.append_history(flow, diagnose(flow), StepReport{});
+  bool written = true;
+  try {
+    while (!run.control.finished(flow.state().time) && interrupt_signal() == 0) written = take_step(flow, run);
+  } catch (const NumericalError& error) {
+    const std::filesystem::path file = run.writer.write_failed_state(flow);
+    throw NumericalError("step " + std::to_string(flow.state().step + 1) + " at time " +
+                         number_text(flow.state().time) + ": " + error.what() + "; the state before it is in " +
+                         file.string());
+  }
+  if (!written) write_fields(flow, run);
+  return run.control.finished(flow.state().time);
+}
+
+/// Leaves a summary of a run that is about to end with an error, if it can still be written.
+template <int Dim>
+void summarize_failure(Run<Dim>& run, const std::string& message) {
+  try {
+    run.writer.write_summary(run.statistics.summary("failed", message));
+  } catch (const FileError&) {
+    // The error that ended the run is the one to report.
+  }
+}
+
+template <int Dim>
 int run_in(const CaseConfig& config, const RunOptions& options) {
-  const std::filesystem::path folder = options.output.value_or(config.output.directory);
-  Flow<Dim> flow = build_flow<Dim>(config);
-  const double radians = flow.domain().grid.axisymmetric() ? 2 * std::numbers::pi : 1.0;
-  const long cells = static_cast<long>(flow.domain().grid.cells().size());
-  ResultWriter<Dim> writer(config, folder);
-  TimeControl control(config.time, config.output.fields);
-  RunStatistics statistics(volumes_with_escaped(flow), cells);
-  Progress progress(config.time.end, cells, options.quiet);
+  const std::string& folder = config.output.directory;
+  const long cells = static_cast<long>(count_cells(config.grid));
   std::vector<std::string> species;
   for (const Species& s : config.species) species.push_back(s.name);
-
-  const auto write_fields = [&] {
-    progress.wrote(flow.state().time, flow.state().step, writer.write_fields(flow).string());
-  };
-  control.output_due(0);
-  write_fields();
-  writer.append_history(flow, diagnose(flow), StepReport{});
+  Run<Dim> run{config, ResultWriter<Dim>(config, folder), TimeControl(config.time, config.output.fields),
+               RunStatistics(species, cells), Progress(config.time.end, cells, options.quiet)};
+  bool finished = false;
   try {
-    while (!control.finished(flow.state().time)) {
-      const State<Dim>& state = flow.state();
-      const double stable = stable_step(flow, control.cfl());
-      const StepReport report =
-          advance_with_retries(flow, control.next_step(state.time, state.dt, stable), statistics, progress);
-      const Diagnostics diagnostics = diagnose(flow);
-      statistics.add(report, volumes_with_escaped(flow), diagnostics.kinetic_energy / radians,
-                     diagnostics.potential_energy / radians);
-      writer.append_history(flow, diagnostics, report);
-      progress.step(state.time, state.step, state.dt);
-      if (control.output_due(state.time) || control.finished(state.time)) write_fields();
-    }
-  } catch (const NumericalError& error) {
-    const std::filesystem::path file = writer.write_failed_state(flow);
-    const std::string message = "step " + std::to_string(flow.state().step + 1) + " at time " +
-                                number_text(flow.state().time) + ": " + error.what();
-    writer.write_summary(statistics.summary("failed", message, flow.state().time, species));
-    throw NumericalError(message + "; the state before it is in " + file.string());
+    finished = march(run);
+  } catch (const std::bad_alloc&) {
+    summarize_failure(run, "out of memory");
+    throw;
+  } catch (const std::exception& error) {
+    summarize_failure(run, error.what());
+    throw;
   }
-  writer.write_summary(statistics.summary("finished", "", flow.state().time, species));
-  progress.say("finished after " + std::to_string(flow.state().step) + " steps; results in " + folder.string());
-  return 0;
+  const std::string status = finished ? "finished" : "interrupted";
+  run.writer.write_summary(
+      run.statistics.summary(status, finished ? "" : "by signal " + std::to_string(interrupt_signal())));
+  run.progress.say(status + " after " + std::to_string(run.statistics.steps()) + " steps; results in " + folder);
+  return finished ? 0 : 128 + interrupt_signal();
 }
 
 }  // namespace
 
 int run_case(const CaseConfig& config, const RunOptions& options) {
   set_threads(options.threads);
+  catch_interrupts();
   return config.grid.dimension == 2 ? run_in<2>(config, options) : run_in<3>(config, options);
 }
 

@@ -1,24 +1,19 @@
 #pragma once
 /// \file
 /// Running a case.
-#include <optional>
-#include <string>
-
 #include "app/case_config.hpp"
 
 namespace quicksand {
 
-/// What the command line says about a run beyond its case.
+/// How a case is run.
 struct RunOptions {
-  std::optional<std::string> output;  ///< folder instead of the case's
-  int threads = 0;                    ///< 0: as many as OpenMP chooses
-  bool overwrite = false;             ///< replace results in the output folder
-  bool quiet = false;                 ///< no progress
+  int threads = 0;     ///< 0: as many as OpenMP chooses
+  bool quiet = false;  ///< no progress
 };
 
-/// Runs a case to its end and writes its results. The output folder exists and may be written to.
-/// \return exit code of the program
-/// \throws NumericalError, FileError
+/// Runs a case to its end, or to the end of the step in which SIGINT or SIGTERM arrives, and writes its results to
+/// config.output.directory, which exists and may be written to. `summary.json` tells how the run ended, also where this
+/// throws. \return exit code of the program: 0, or 128 + the signal \throws NumericalError, FileError
 int run_case(const CaseConfig& config, const RunOptions& options);
 
 }  // namespace quicksand

@@ -33,21 +33,24 @@ std::array<int, phase_names.size()> iterations_of(const StepReport& report) {
 
 }  // namespace
 
-RunStatistics::RunStatistics(std::vector<double> initial_volume, long cells)
-    : cells_(cells), initial_volume_(std::move(initial_volume)), volume_error_(initial_volume_.size(), 0.0) {}
+RunStatistics::RunStatistics(std::vector<std::string> species, long cells)
+    : species_(std::move(species)), cells_(cells), volume_error_(species_.size(), 0.0) {}
 
-void RunStatistics::add(const StepReport& report, const std::vector<double>& volume, double kinetic_energy,
-                        double total_energy) {
+void RunStatistics::start(std::vector<double> volume, double energy_scale) {
+  initial_volume_ = std::move(volume);
+  energy_scale_ = energy_scale;
+}
+
+void RunStatistics::add(const StepReport& report, const std::vector<double>& volume, double time) {
   ++steps_;
+  time_ = time;
   const double whole = std::accumulate(initial_volume_.begin(), initial_volume_.end(), 0.0);
   for (std::size_t i = 0; i < volume.size(); ++i) {
     volume_error_[i] = std::max(volume_error_[i], std::abs(volume[i] - initial_volume_[i]) / whole);
   }
-  // Energies of the step are per radian in axisymmetric flows; so must be what they are compared with.
-  const double scale = std::abs(total_energy) + kinetic_energy;
-  if (scale > 0) {
-    redistribution_rise_ = std::max(redistribution_rise_, report.redistribution_energy_change / scale);
-    projection_rise_ = std::max(projection_rise_, report.projection_energy_change / scale);
+  if (energy_scale_ > 0) {
+    redistribution_rise_ = std::max(redistribution_rise_, report.redistribution_energy_change / energy_scale_);
+    projection_rise_ = std::max(projection_rise_, report.projection_energy_change / energy_scale_);
   }
   const auto iterations = iterations_of(report);
   for (std::size_t k = 0; k < phase_names.size(); ++k) {
@@ -59,25 +62,21 @@ void RunStatistics::add(const StepReport& report, const std::vector<double>& vol
   fallbacks_ += report.diffusion.fell_back ? 1 : 0;
 }
 
-double RunStatistics::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
-
-Json RunStatistics::summary(const std::string& status, const std::string& message, double time,
-                            const std::vector<std::string>& species) const {
-  const double wall = seconds();
+Json RunStatistics::summary(const std::string& status, const std::string& message) const {
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   Json json;
   json["status"] = status;
   if (!message.empty()) json["message"] = message;
-  json["time"] = time;
+  json["time"] = time_;
   json["steps"] = steps_;
   json["retried_steps"] = retries_;
+  json["steps_beyond_cfl"] = steps_beyond_cfl_;
   json["cells"] = cells_;
   json["wall_seconds"] = wall;
   json["cell_steps_per_second"] = wall > 0 ? static_cast<double>(cells_ * steps_) / wall : 0.0;
   json["threads"] = thread_count();
   json["peak_memory_MiB"] = peak_memory();
-  for (std::size_t i = 0; i < species.size(); ++i) json["volume_error"][species[i]] = volume_error_[i];
+  for (std::size_t i = 0; i < species_.size(); ++i) json["volume_error"][species_[i]] = volume_error_[i];
   json["energy_increase"]["redistribution"] = redistribution_rise_;
   json["energy_increase"]["projection"] = projection_rise_;
   const double cell_steps = static_cast<double>(std::max(cells_ * steps_, 1L));

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
 /// What a run adds up over its steps, for `summary.json`.
+#include <array>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -14,32 +15,41 @@ namespace quicksand {
 /// Sums and extremes over the steps of a run.
 class RunStatistics {
  public:
-  /// \param initial_volume  of every species, in the unit of species_volume()
-  /// \param cells           owned cells
-  RunStatistics(std::vector<double> initial_volume, long cells);
+  /// \param species  names
+  /// \param cells    owned cells
+  RunStatistics(std::vector<std::string> species, long cells);
 
+  /// Notes what the steps are compared with.
+  /// \param volume        of every species at the start, in the unit of species_volume()
+  /// \param energy_scale  positive energy that increases of energy are divided by, in the unit of StepReport's
+  /// energies; with
+  ///                      zero none are recorded
+  void start(std::vector<double> volume, double energy_scale);
   /// Adds one accepted step.
-  /// \param volume          of every species now, plus what has escaped
-  /// \param kinetic_energy, total_energy  after the step
-  void add(const StepReport& report, const std::vector<double>& volume, double kinetic_energy, double total_energy);
+  /// \param volume  of every species now, plus what has escaped
+  /// \param time    after the step
+  void add(const StepReport& report, const std::vector<double>& volume, double time);
   void count_retry() { ++retries_; }
+  /// Counts a fixed step beyond the CFL limit; returns how many there are.
+  long count_step_beyond_cfl() { return ++steps_beyond_cfl_; }
 
-  /// Largest error so far of a species' volume, relative to the volume of all.
-  double volume_error(std::size_t species) const { return volume_error_[species]; }
-  double seconds() const;
+  long steps() const { return steps_; }
 
   /// The document of `summary.json`.
-  Json summary(const std::string& status, const std::string& message, double time,
-               const std::vector<std::string>& species) const;
+  Json summary(const std::string& status, const std::string& message) const;
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::vector<std::string> species_;
   long cells_;
   long steps_ = 0;
+  double time_ = 0;
   long retries_ = 0;
+  long steps_beyond_cfl_ = 0;
   long fallbacks_ = 0;
   std::vector<double> initial_volume_;
   std::vector<double> volume_error_;
+  double energy_scale_ = 0;
   double redistribution_rise_ = 0;
   double projection_rise_ = 0;
   std::array<double, phase_names.size()> seconds_{};

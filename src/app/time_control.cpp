@@ -15,8 +15,11 @@ namespace {
 constexpr double largest_growth = 1.3;
 /// The first step by CFL number starts from rest, where the stable one follows from gravity alone.
 constexpr double first_step_share = 0.1;
-/// Times closer than this, relative to the step, count as equal.
-constexpr double time_slack = 1e-6;
+/// What is left of a step's way to a given time may exceed the step by this share: far more than round-off adds up to
+/// in the longest runs, far too little to matter for accuracy.
+constexpr double step_slack = 1e-3;
+/// Times closer than this, relative to the run's length, are the same.
+constexpr double time_slack = 1e-12;
 
 }  // namespace
 
@@ -43,15 +46,23 @@ double TimeControl::next_step(double now, double last_dt, double stable) const {
     }
     until = std::min(left, next_output() > now ? next_output() - now : left);
   }
-  if (dt >= until * (1 - time_slack)) return until;
-  // Two equal steps rather than a long and a tiny one.
-  return !time_.step && dt > 0.5 * until ? 0.5 * until : dt;
+  if (dt * (1 + step_slack) >= until) {
+    dt = until;
+  } else if (!time_.step && dt > 0.5 * until) {
+    dt = 0.5 * until;  // two equal steps rather than a long and a tiny one
+  }
+  if (!(now + dt > now)) {
+    throw NumericalError("the time step " + number_text(dt) + " is too short to change the time " + number_text(now));
+  }
+  return dt;
 }
 
-bool TimeControl::finished(double now) const { return now >= time_.end * (1 - 1e-12); }
+double TimeControl::least_step() const { return std::max(time_.min_step.value_or(0), time_slack * time_.end); }
+
+bool TimeControl::finished(double now) const { return now >= time_.end * (1 - time_slack); }
 
 bool TimeControl::output_due(double now) {
-  const double slack = time_slack * time_.step.value_or(time_.end * 1e-6);
+  const double slack = time_.step ? step_slack * *time_.step : time_slack * time_.end;
   bool due = false;
   while (next_output() <= now + slack) {
     ++outputs_done_;

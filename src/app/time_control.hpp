@@ -5,20 +5,27 @@
 
 namespace quicksand {
 
-/// Decides how long the next step is: the case's fixed step, or the stable one within its limits; shortened so that a
-/// step ends at the end of the run and, with steps by CFL number, at every output time.
+/// Decides how long the next step is: the case's fixed step whatever the CFL number, or the stable one within the
+/// case's limits. A step is changed so that one ends at the end of the run and, with steps by CFL number, at every
+/// output time: it takes all that is left up to there when that is at most a thousandth longer than the step, so that
+/// no sliver stays.
 class TimeControl {
  public:
   TimeControl(const TimeSettings& time, const OutputSchedule& fields);
 
-  /// CFL number of the case; for fixed steps what they are checked against.
+  /// CFL number of the case; 1, the limit of convection, where steps are fixed.
   double cfl() const { return time_.cfl.value_or(1.0); }
-  /// \param stable  the largest step by the CFL number
-  /// \throws NumericalError when it falls below the case's min_step
+  /// \param last_dt  step before, 0 for the first one
+  /// \param stable   the largest step by the CFL number; fixed steps may exceed it, see beyond_limit()
+  /// \throws NumericalError when `stable` falls below the case's min_step, or the step is too short to change the time
   double next_step(double now, double last_dt, double stable) const;
+  /// Whether a fixed step was longer than the largest one by the CFL number.
+  bool beyond_limit(double dt, double stable) const { return time_.step && dt > stable; }
+  /// No step shorter than this is worth trying after a failure: min_step, and at least 1e-12 of the run.
+  double least_step() const;
   /// Whether the run is over.
   bool finished(double now) const;
-  /// Whether fields are due now; says so once for each output time.
+  /// Whether fields are due now; says so once for each output time. A fixed step is on time up to a thousandth of it.
   bool output_due(double now);
 
  private:

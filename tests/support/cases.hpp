@@ -19,7 +19,7 @@ inline CaseConfig shipped_case(const std::string& name, const std::vector<std::s
 }
 
 /// The case with steps by CFL number instead of its own.
-inline CaseConfig with_cfl(CaseConfig config, double cfl = 0.3, double max_step = 0.02) {
+inline CaseConfig with_cfl(CaseConfig config, double cfl = 0.3, double max_step = 0.005) {
   config.time.step.reset();
   config.time.cfl = cfl;
   config.time.max_step = max_step;

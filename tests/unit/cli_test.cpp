@@ -57,9 +57,9 @@ TEST(CommandLineArguments, Run) {
   EXPECT_EQ(line.command, Command::run);
   EXPECT_EQ(line.path, "case.yaml");
   EXPECT_EQ(line.settings, (std::vector<std::string>{"time.end=1", "gravity=2"}));
-  EXPECT_EQ(line.run.output, "out");
+  EXPECT_EQ(line.output, "out");
   EXPECT_EQ(line.run.threads, 3);
-  EXPECT_TRUE(line.run.overwrite);
+  EXPECT_TRUE(line.overwrite);
   EXPECT_TRUE(line.run.quiet);
 }
 
@@ -113,13 +113,25 @@ TEST_F(CommandLineFolder, CheckThrowsOnABadCase) {
   EXPECT_THROW(execute(line, out, out), InputError);
 }
 
-TEST(CommandLineWarnings, LiquidNearAnOpenSideAndPressure) {
-  const CaseConfig config =
-      parse_case(valid_case, "case.yaml", {"initial.0.shape.cylinder.height=1.49", "ambient_pressure=2"});
+TEST_F(CommandLineFolder, CheckPrintsTheFirstStepByCflNumber) {
+  const std::string text =
+      output_of({"check", write("case.yaml", valid_case), "--set", "time={end: 1, cfl: 0.5, max_step: 0.01}"});
+  EXPECT_NE(text.find("CFL number 0.5, at most 0.01; first 0.001\n"), std::string::npos) << text;
+}
+
+TEST_F(CommandLineFolder, CheckPrintsTheNumbersOfAGridThatIsTooLarge) {
+  const std::string text = output_of(
+      {"check", write("case.yaml", valid_case), "--set", "grid.x.cells=40000", "--set", "grid.z.cells=40000"});
+  for (const std::string part : {"40000 x 40000 = 1600000000", "1.25e-05", "sand: density 2", "the run needs about"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  }
+}
+
+TEST(CommandLineWarnings, LiquidNearAnOpenSide) {
+  const CaseConfig config = parse_case(valid_case, "case.yaml", {"initial.0.shape.cylinder.height=1.49"});
   const std::vector<std::string> warnings = case_warnings(config);
-  ASSERT_EQ(warnings.size(), 3u);
+  ASSERT_EQ(warnings.size(), 2u);
   EXPECT_NE(warnings[1].find("less than 2 cells from the open side z_max"), std::string::npos);
-  EXPECT_NE(warnings[2].find("is not ambient_pressure, 2"), std::string::npos);
 }
 
 TEST(CommandLineText, VersionHelpAndSchema) {
@@ -155,6 +167,19 @@ TEST_F(CommandLineFolder, OutputFolderIsMadeAndGuarded) {
   EXPECT_FALSE(fs::exists(results / "fields_000001.h5"));
   EXPECT_TRUE(fs::exists(results / "notes.txt")) << "only results are removed";
   EXPECT_THROW(prepare_output_folder((results / "notes.txt").string(), true), FileError);
+}
+
+TEST_F(CommandLineFolder, CaseFileIsNotWrittenOver) {
+  const std::string file = write("case.yaml", valid_case);
+  std::ostringstream out;
+  EXPECT_THROW(execute(parse_command_line({"run", file, "--output", folder_.string(), "--overwrite"}), out, out),
+               InputError);
+  EXPECT_TRUE(fs::exists(file));
+  EXPECT_THROW(protect_case_file(file, (folder_ / "").string()), InputError);
+  EXPECT_NO_THROW(protect_case_file(file, (folder_ / "results").string()));
+  EXPECT_NO_THROW(protect_case_file(write("mine.yaml", valid_case), folder_.string()));
+  fs::create_symlink(file, folder_ / "link.yaml");
+  EXPECT_THROW(protect_case_file((folder_ / "link.yaml").string(), folder_.string()), InputError);
 }
 
 }  // namespace

@@ -41,7 +41,9 @@ TEST(ConfigCase, ReadsEveryValue) {
 
 TEST(ConfigCase, FillsDefaults) {
   const CaseConfig config = parse_case(with("output:\n  directory: results/test\n  fields: {every: 0.1}\n", ""), "c");
-  EXPECT_EQ(config.solver.liquid_threshold, 0.5);
+  EXPECT_EQ(config.solver.liquid_threshold, 0.95);
+  EXPECT_EQ(config.solver.tolerance, 1e-9);
+  EXPECT_EQ(config.solver.viscous_tolerance, 1e-4);
   EXPECT_EQ(config.solver.viscous_iteration, ViscousIteration::newton);
   EXPECT_EQ(config.initial[0].velocity, (Vec<3>{}));
   EXPECT_EQ(config.species[0].concentration.yield_exponent, 0);
@@ -70,7 +72,8 @@ TEST(ConfigCase, ShownCaseReadsBackToTheSame) {
 
 TEST(ConfigCase, ShownNumbersAreExact) {
   for (const std::string number : {"0.1", "1e-300", "4.9e-324", "0.30000000000000004", "123456789012345678", "1e23"}) {
-    const CaseConfig config = parse_case(valid_case, "case.yaml", {"ambient_pressure=" + number});
+    const CaseConfig config =
+        parse_case(valid_case, "case.yaml", {"ambient_pressure=" + number, "boundaries.z_max.open=" + number});
     const CaseConfig again = parse_case(to_yaml(config), "shown");
     EXPECT_EQ(again.ambient_pressure, config.ambient_pressure) << number;
   }
@@ -115,13 +118,13 @@ TEST(ConfigCase, UnitsAreConverted) {
   const std::string si = with("units: none\n", "");
   const CaseConfig config =
       parse_case(si, "case.yaml",
-                 {"grid.x={from: 0, to: 20 in, cells: 16}", "species.0.density=2 g/cm^3", "ambient_pressure=1 atm",
+                 {"grid.x={from: 0, to: 20 in, cells: 16}", "species.0.density=2 g/cm^3", "ambient_pressure=33.9 ftH2O",
                   "boundaries.z_max={open: 33.9 ftH2O}", "time.step=0.5 ms", "gravity=32.174 ft/s^2", "time.end=4 s",
                   "species.1.rheology.viscosity=1 cP", "species.0.rheology.yield_stress=1 kPa",
                   "initial.0.velocity=[0, 0, 1 cm/s]"});
   EXPECT_NEAR(config.grid.x[0].to, 0.508, 1e-15);
   EXPECT_NEAR(config.species[0].density, 2000, 1e-9);
-  EXPECT_EQ(config.ambient_pressure, 101325);
+  EXPECT_NEAR(config.ambient_pressure, 33.9 * 2989.06692, 1e-6);
   EXPECT_NEAR(config.boundaries.z_max->pressure, 33.9 * 2989.06692, 1e-6);
   EXPECT_NEAR(*config.time.step, 5e-4, 1e-18);
   EXPECT_NEAR(config.gravity[2], -9.80665, 1e-4);

@@ -58,6 +58,8 @@ const Mistake value_mistakes[] = {
     {"x_max: no_slip", "x_max: axis", "10:10", "boundaries.x_max", "axis is for x_min"},
     {"x_max: no_slip", "x_max: noslip", "10:10", "boundaries.x_max", "did you mean 'no_slip'?"},
     {"x_max: no_slip", "x_max: open", "10:10", "boundaries.x_max", "{open: PRESSURE}"},
+    {"{open: 1.0}", "{open: 2.0}", "12:17", "boundaries.z_max.open", "must be ambient_pressure = 1, not 2"},
+    {"ambient_pressure: 1.0\n", "", "12:17", "boundaries.z_max.open", "must be ambient_pressure = 0, not 1"},
     {"  x_max: no_slip\n", "", "9:3", "boundaries.x_max", "is required but missing"},
     {"gravity: 1.0", "gravity: [1, 2]", "13:10", "gravity", "must point along z"},
     {"gravity: 1.0", "gravity: [0, 1, 0]", "13:10", "gravity", "y component must be 0"},

@@ -67,5 +67,18 @@ TEST(DamBreak, FrontRunsAtTheMeasuredSpeed) {
   EXPECT_NEAR((flow.front[2] - flow.front[0]) / (2.78 - 1.89), 1, 0.06);
 }
 
+TEST(DamBreak, FrontFollowsTheTableOnceReleased) {
+  // The experiment's column is let go by a diaphragm: from the row Z = 1.22 on its front is that of a column set free
+  // at once, later by one delay.
+  const double scale = std::sqrt(2.0);
+  const std::vector<double> table_time = {1.19, 1.43, 1.63, 1.98, 2.32, 2.65};
+  const std::vector<double> table_front = {1.44, 1.67, 1.89, 2.33, 2.78, 3.22};
+  constexpr double delay = 0.27;
+  std::vector<double> times;
+  for (const double t : table_time) times.push_back((t - delay) / scale);
+  const DamBreak flow = break_dam(times);
+  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(flow.front[i] / table_front[i], 1, 0.03) << table_time[i];
+}
+
 }  // namespace
 }  // namespace quicksand

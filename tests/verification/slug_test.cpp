@@ -58,9 +58,10 @@ constexpr Outline stopped_d{0.486, 0.463};
 constexpr Outline stopped_e{0.735, 0.342};
 
 TEST(Slug, ViscousLiquidFallsAsInTheReference) {
-  const Slug slug = collapse<2>(fast('b'), {1, 2});
+  const Slug slug = collapse<2>(fast('b'), {1, 2, 3});
   expect_within(slug.shape[0].height, 0.509, 0.02);
   expect_within(slug.shape[1].height, 0.126, 0.02);
+  expect_within(slug.shape[2].height, 0.303, 0.02);
 }
 
 TEST(Slug, SoftSlurryStopsAsInTheReference) {
@@ -117,6 +118,14 @@ TEST(Slug, SlugsStopAsInTheReferenceWithTheStepsOfTheTableSlow) {
   const Slug e = collapse<2>(as_shipped('e'), {4});
   expect_within(e.shape[0].height, stopped_e.height, 0.04);
   expect_within(e.shape[0].radius, stopped_e.radius, 0.08);
+}
+
+TEST(Slug, StepsByCflNumberGiveTheHeightsOfTheTablesStepsSlow) {
+  for (const char letter : {'d', 'e'}) {
+    const double by_cfl = collapse<2>(fast(letter), {4}).shape[0].height;
+    const double by_table = collapse<2>(as_shipped(letter), {4}).shape[0].height;
+    expect_within(by_cfl, by_table, 0.005);
+  }
 }
 
 TEST(Slug, StrongSlurriesStandFastWithTheStepsOfTheTableSlow) {

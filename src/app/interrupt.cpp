@@ -1,0 +1,32 @@
+#include "app/interrupt.hpp"
+
+#include <atomic>
+#include <csignal>
+
+namespace quicksand {
+
+namespace {
+
+std::atomic<int> noted_signal = 0;
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may touch nothing else");
+
+void note(int signal) { noted_signal = signal; }
+
+}  // namespace
+
+void catch_interrupts() {
+  noted_signal = 0;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction action {};
+    sigaction(signal, nullptr, &action);
+    if (action.sa_handler == SIG_IGN) continue;
+    action = {};
+    action.sa_handler = note;
+    action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+int interrupt_signal() { return noted_signal; }
+
+}  // namespace quicksand
