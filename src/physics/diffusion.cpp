@@ -6,16 +6,14 @@
 #include <optional>
 
 #include "core/vector_fields.hpp"
+#include "physics/velocity_solver.hpp"
 #include "physics/viscous_functional.hpp"
 #include "solvers/anderson.hpp"
-#include "solvers/multigrid.hpp"
 
 namespace quicksand {
 
 namespace {
 
-/// Linear solves inside the nonlinear iteration.
-constexpr int max_linear_iterations = 400;
 /// Newton's method gives up, in favour of Anderson's, when a line search has halved the step this often.
 constexpr int max_halvings = 12;
 constexpr int anderson_depth = 5;
@@ -59,21 +57,6 @@ double gradient_norm(const Domain<Dim>& domain, const DiffusionWork<Dim>& work, 
   return std::sqrt(square);
 }
 
-/// Solves matrix * x = b by CG with one multigrid cycle per component as preconditioner.
-template <int Dim>
-SolveReport solve_velocity(const Domain<Dim>& domain, const VelocityMatrix<Dim>& matrix, const CellVectors<Dim>& b,
-                           CellVectors<Dim>& x, double relative_tolerance) {
-  std::vector<Multigrid<Dim, Cell>> cycles;
-  cycles.reserve(static_cast<std::size_t>(Dim));
-  for (int d = 0; d < Dim; ++d) cycles.emplace_back(matrix.component(d), MultigridKind::pfmg);
-  const auto precondition = [&](const CellVectors<Dim>& r, CellVectors<Dim>& z) {
-    for (int d = 0; d < Dim; ++d) cycles[static_cast<std::size_t>(d)].cycle(r[d], z[d]);
-  };
-  const auto apply = [&](const CellVectors<Dim>& v, CellVectors<Dim>& y) { matrix.apply(v, y); };
-  return conjugate_gradients<Cell>(domain.layout(), matrix.box(), apply, precondition, b, x,
-                                   {.relative = relative_tolerance, .max_iterations = max_linear_iterations});
-}
-
 /// What the nonlinear iterations share.
 template <int Dim>
 struct Problem {
@@ -100,7 +83,7 @@ bool iterate_newton(const Problem<Dim>& p, int max_iterations, CellVectors<Dim>&
     // Inexact Newton: as accurate as the quadratic convergence seen so far deserves.
     const double forcing = k == 0 ? 1e-2 : std::clamp(0.5 * (norm / last_norm) * (norm / last_norm), 1e-4, 1e-2);
     const SolveReport linear =
-        solve_velocity(p.domain, work.matrix, work.gradient, work.update, std::max(forcing, 0.1 * p.target / norm));
+        solve_velocity(work.matrix, work.gradient, work.update, std::max(forcing, 0.1 * p.target / norm));
     report.linear_iterations += linear.iterations;
     ++report.iterations;
     const double descent = dot<Cell>(p.domain.layout(), work.matrix.box(), work.gradient, work.update);
@@ -166,7 +149,7 @@ bool iterate_picard(const Problem<Dim>& p, int max_iterations, bool accelerate, 
     if (k == max_iterations || !std::isfinite(norm)) return false;
     assemble_matrix(p.domain, u, p.dt, Linearisation::secant, work);
     for (int d = 0; d < Dim; ++d) work.update[d].fill(0);
-    const SolveReport linear = solve_velocity(p.domain, work.matrix, work.gradient, work.update, 1e-3);
+    const SolveReport linear = solve_velocity(work.matrix, work.gradient, work.update, 1e-3);
     report.linear_iterations += linear.iterations;
     ++report.iterations;
     if (std::abs(dot<Cell>(p.domain.layout(), work.matrix.box(), work.gradient, work.update)) <= p.least_drop)
