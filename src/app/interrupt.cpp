@@ -22,7 +22,8 @@ void catch_interrupts() {
     if (action.sa_handler == SIG_IGN) continue;
     action = {};
     action.sa_handler = note;
-    action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+    // Not for SIGTERM, which timeout(1) and batch systems may send more than once.
+    action.sa_flags = SA_RESTART | (signal == SIGINT ? static_cast<int>(SA_RESETHAND) : 0);
     sigaction(signal, &action, nullptr);
   }
 }

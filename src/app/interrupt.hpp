@@ -4,8 +4,8 @@
 
 namespace quicksand {
 
-/// From now on SIGINT and SIGTERM are noted instead of ending the program; a second one ends it as usual. Signals that
-/// the program was started to ignore stay ignored.
+/// From now on SIGINT and SIGTERM are noted instead of ending the program; a second SIGINT ends it as usual. Signals
+/// that the program was started to ignore stay ignored.
 void catch_interrupts();
 /// The signal noted, 0 if none.
 int interrupt_signal();
