@@ -32,7 +32,7 @@ struct Lump {
         u_tilde(testing::rough_vectors(domain.grid, 3)),
         momentum(domain.layout()),
         u_bar(domain.layout()),
-        work(domain, 1),
+        work(domain, mixture.species),
         escaped(1, 0.0) {
     testing::set_cells(domain.grid, mixture.phi[0], [&](const Vec<Dim>& x) {
       return std::clamp(1.4 - std::pow(testing::distance(x, centre) / radius, 4), 0.0, 1.4);
@@ -195,7 +195,7 @@ TEST(PhysicsRedistribution, TheFirstSpeciesKeepsItsPlace) {
   testing::set_cells(domain.grid, mixture.phi[0], [](const Vec<2>& x) { return x[0] < 0.5 ? 0.8 : 0.0; });
   testing::set_cells(domain.grid, mixture.phi[1], [](const Vec<2>& x) { return x[0] < 0.5 ? 0.5 : 0.2; });
   const Fractions before = mixture.phi;
-  RedistributionWork<2> work(domain, 2);
+  RedistributionWork<2> work(domain, mixture.species);
   std::vector<double> escaped(2, 0.0);
   redistribute_volume(domain, mixture.species, {.tolerance = volume_tolerance}, work, mixture.phi, escaped);
   mixture.update();
