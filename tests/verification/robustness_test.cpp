@@ -38,7 +38,7 @@ time: {end: 0.5, cfl: 0.3, max_step: 0.01}
   EXPECT_NEAR(largest_speed(flow, 1e-3), std::hypot(0.3, 0.77), 1e-10);
 }
 
-TEST(Robustness, FilmsOfNextToNoMassStayAsSlowAsTheLiquid) {
+TEST(Robustness, FilmsOfNextToNoMassAreNoFasterThanFreeFall) {
   const CaseConfig config = parse_case(R"(
 title: sand, water and oil in SI units
 grid: {dimension: 2, geometry: axisymmetric, x: {from: 0, to: 1 m, cells: 24}, z: {from: 0, to: 1.5 m, cells: 36}}
@@ -57,12 +57,15 @@ time: {end: 0.8, cfl: 0.3, max_step: 0.005}
 )",
                                        "three species");
   Flow<2> flow = build_flow<2>(config);
+  // A film may fall freely past the liquid; a quotient of round-off errors knows no bound.
+  double fastest_liquid = 0;
   double worst = 0;
   testing::run(config, flow, [&](const StepReport&) {
-    worst = std::max(worst, largest_speed(flow, -1.0) / std::max(largest_speed(flow, empty_fraction), 0.1));
+    fastest_liquid = std::max(fastest_liquid, largest_speed(flow, empty_fraction));
+    worst = std::max(worst, largest_speed(flow, -1.0) / (fastest_liquid + 9.81 * flow.state().time));
     return true;
   });
-  EXPECT_LE(worst, 3);
+  EXPECT_LE(worst, 1);
 }
 
 }  // namespace
