@@ -144,7 +144,7 @@ template <int Dim>
 std::string time_step_text(const CaseConfig& config) {
   const TimeSettings& time = config.time;
   if (time.step) return shortest(*time.step) + ", " + brief(std::ceil(time.end / *time.step - 1e-3)) + " steps";
-  const std::string text = "CFL number " + shortest(*time.cfl) + ", at most " + shortest(*time.max_step);
+  std::string text = "CFL number " + shortest(*time.cfl) + ", at most " + shortest(*time.max_step);
   if (needed_memory(config) > most_memory_to_build) return text;
   return text + "; first " + brief(first_step<Dim>(config));
 }

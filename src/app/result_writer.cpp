@@ -75,7 +75,7 @@ FieldSnapshot ResultWriter<Dim>::snapshot(const Flow<Dim>& flow) const {
 
 template <int Dim>
 std::filesystem::path ResultWriter<Dim>::write_fields(const Flow<Dim>& flow) {
-  const std::filesystem::path file = folder_ / fields_file_name(flow.state().step);
+  std::filesystem::path file = folder_ / fields_file_name(flow.state().step);
   quicksand::write_fields(file, snapshot(flow));
   series_.add(file);
   return file;
@@ -83,7 +83,7 @@ std::filesystem::path ResultWriter<Dim>::write_fields(const Flow<Dim>& flow) {
 
 template <int Dim>
 std::filesystem::path ResultWriter<Dim>::write_failed_state(const Flow<Dim>& flow) {
-  const std::filesystem::path file = folder_ / ("failed_" + fields_file_name(flow.state().step));
+  std::filesystem::path file = folder_ / ("failed_" + fields_file_name(flow.state().step));
   quicksand::write_fields(file, snapshot(flow));
   return file;
 }

@@ -22,7 +22,7 @@ struct Alternative {
 
 /// The alternative T of the variant V.
 template <class V, class T>
-Alternative<V> alternative(std::string name, std::vector<detail::MemberOf<T>> members, std::string help) {
+Alternative<V> alternative(std::string name, std::vector<detail::MemberOf<T>> members, const std::string& help) {
   const Codec<T> codec = object(members);
   Alternative<V> result;
   result.read = [name, members](Reading& reading, const ConfigNode& node, const std::string& tag, V& out) {
@@ -37,7 +37,7 @@ Alternative<V> alternative(std::string name, std::vector<detail::MemberOf<T>> me
   };
   result.schema = codec.schema;
   result.name = std::move(name);
-  result.help = std::move(help);
+  result.help = help;
   return result;
 }
 

@@ -35,8 +35,9 @@ struct Rows {
   std::ptrdiff_t start(std::ptrdiff_t r) const {
     Index<Dim> i = box.lo;
     for (int d = 1; d < Dim; ++d) {
-      i[d] += static_cast<int>(r % box.extent(d));
-      r /= box.extent(d);
+      const int extent = std::max(box.extent(d), 1);
+      i[d] += static_cast<int>(r % extent);
+      r /= extent;
     }
     return layout.flat(i);
   }

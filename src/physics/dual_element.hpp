@@ -172,8 +172,8 @@ StrainRate<Dim> strain_rate(const DualElement<Dim>& e, int q, const double (&u)[
   double hoop = 0;
   for (int k = 0; k < corner_count<Dim>; ++k) {
     for (int d = 0; d < Dim; ++d) {
-      const double dN = shapes.derivative[q][k][d] * e.inverse_width[d];
-      for (int c = 0; c < Dim; ++c) gradient[c][d] += u[k][c] * dN;
+      const double slope = shapes.derivative[q][k][d] * e.inverse_width[d];
+      for (int c = 0; c < Dim; ++c) gradient[c][d] += u[k][c] * slope;
     }
     hoop += shapes.value[q][k] * u[k][0];
   }

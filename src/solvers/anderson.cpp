@@ -5,7 +5,7 @@
 namespace quicksand {
 
 Eigen::VectorXd Anderson::next(const Eigen::VectorXd& x, const Eigen::VectorXd& g) {
-  residuals_.push_back(g - x);
+  residuals_.emplace_back(g - x);
   images_.push_back(g);
   if (static_cast<int>(residuals_.size()) > depth_ + 1) {
     residuals_.pop_front();
