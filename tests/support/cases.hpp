@@ -7,9 +7,9 @@
 #include "app/build_flow.hpp"
 #include "app/case_config.hpp"
 #include "app/time_control.hpp"
-#include "core/threads.hpp"
 #include "physics/diagnostics.hpp"
 #include "physics/time_step.hpp"
+#include "support/threads.hpp"
 
 namespace quicksand::testing {
 
@@ -51,17 +51,5 @@ template <int Dim>
 void run(const CaseConfig& config, Flow<Dim>& flow) {
   run(config, flow, [](const StepReport&) { return true; });
 }
-
-/// Sets the number of threads for the life of the object.
-class Threads {
- public:
-  explicit Threads(int count) : before_(thread_count()) { set_threads(count); }
-  ~Threads() { set_threads(before_); }
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
-
- private:
-  int before_;
-};
 
 }  // namespace quicksand::testing

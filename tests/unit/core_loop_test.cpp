@@ -2,23 +2,13 @@
 
 #include "core/field.hpp"
 #include "core/loop.hpp"
-#include "core/threads.hpp"
 #include "support/grids.hpp"
+#include "support/threads.hpp"
 
 namespace quicksand {
 namespace {
 
-/// Sets a number of threads for one test.
-class Threads {
- public:
-  explicit Threads(int count) : before_(thread_count()) { set_threads(count); }
-  ~Threads() { set_threads(before_); }
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
-
- private:
-  int before_;
-};
+using testing::Threads;
 
 /// Large enough for loops to use threads.
 const Layout<2> plane(Index<2>{130, 110});
