@@ -10,7 +10,7 @@
 /// fallback. Where the material yields the functional is nearly that of total variation, |Delta|, for which Newton's
 /// method is slow far from the solution; with the plastic stress as an unknown of its own (Chan, Golub and Mulet 1999)
 /// it is not. The law is evaluated on the composition phi_i / sum phi at full strength: (43b) describes sand thinned by
-/// water, not by void.
+/// water, not by void; and on phi^{n+1} where the report takes the mean with phi^n.
 #include "core/domain.hpp"
 #include "physics/solver_settings.hpp"
 #include "physics/stress_elements.hpp"
