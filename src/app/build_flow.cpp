@@ -15,6 +15,7 @@ FlowParameters<Dim> parameters_of(const CaseConfig& config) {
   p.liquid_threshold = config.solver.liquid_threshold;
   p.linear.relative = config.solver.tolerance;
   p.linear.max_iterations = config.solver.max_iterations;
+  p.obstacle.tolerance = config.solver.tolerance;
   p.diffusion.iteration = config.solver.viscous_iteration;
   p.diffusion.tolerance = config.solver.viscous_tolerance;
   p.diffusion.max_iterations = config.solver.viscous_max_iterations;

@@ -155,7 +155,8 @@ Codec<SolverSettings> solver_codec() {
   return object<SolverSettings>({
       defaulted("liquid_threshold", &SolverSettings::liquid_threshold, quantity(dim::none, {0, 0.99, true}),
                 "eps: cells whose fractions add up to 1 - eps or more are liquid"),
-      defaulted("tolerance", &SolverSettings::tolerance, tolerance, "relative residual of the linear solves"),
+      defaulted("tolerance", &SolverSettings::tolerance, tolerance,
+                "relative residual of the projections, error of volume fractions in the redistribution"),
       defaulted("max_iterations", &SolverSettings::max_iterations, whole_number(1), "limit of a linear solve"),
       defaulted("viscous_tolerance", &SolverSettings::viscous_tolerance, tolerance,
                 "accuracy of the viscous iteration"),

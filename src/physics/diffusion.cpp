@@ -35,14 +35,38 @@ int touching(const NodeMask& active, const Layout<Dim>& layout, Cell c) {
   return touched;
 }
 
+/// Part of the cells in layer i along axis d that lies nearer to the cell's centre than to a wall on side s.
+template <int Dim>
+double part_off_wall(const Grid<Dim>& grid, int d, int s, int i) {
+  if (!grid.axisymmetric() || d != 0) return 0.75;
+  const double r = grid.centre_position(0, i);
+  const double middle = r + (s == 0 ? 1 : -1) * grid.width_1d(0, i) / 8;  // of the remaining three quarters
+  return 0.75 * middle / r;
+}
+
 /// Masses of the cells that active elements touch, and the box around them.
+///
+/// With linear elements the load next to a held boundary point is shared between it and the cell's centre. Left to the
+/// cell alone it makes the velocity at a wall too large by an eighth of h^2 times its second derivative; shared, a
+/// parabola is exact, in the plane as in the tube.
 template <int Dim>
 void mark_participants(const Domain<Dim>& domain, const CellField& rho, DiffusionWork<Dim>& work) {
   const Grid<Dim>& grid = domain.grid;
-  for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
-    work.mass[c] = touching(work.elements.active, domain.layout(), c) > 0 ? rho[c] * grid.volume(c) : 0.0;
-  });
-  work.matrix.set_box(bounding_box<Cell>(domain.layout(), grid.cells(), [&](Cell c) { return work.mass[c] > 0; }));
+  for (int e = 0; e < Dim; ++e) {
+    for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
+      work.mass[e][c] = touching(work.elements.active, domain.layout(), c) > 0 ? rho[c] * grid.volume(c) : 0.0;
+    });
+    for (int d = 0; d < Dim; ++d) {
+      for (int s = 0; s < 2; ++s) {
+        if (d == e || domain.sides.at(d, s).kind != SideKind::no_slip || !grid.at_boundary(d, s)) continue;
+        Box<Dim> layer = grid.cells();
+        (s == 0 ? layer.hi[d] : layer.lo[d]) = s == 0 ? 1 : grid.owned_cells()[d] - 1;
+        const double part = part_off_wall(grid, d, s, layer.lo[d]);
+        for_each<Cell>(domain.layout(), layer, [&](Cell c) { work.mass[e][c] *= part; });
+      }
+    }
+  }
+  work.matrix.set_box(bounding_box<Cell>(domain.layout(), grid.cells(), [&](Cell c) { return work.mass[0][c] > 0; }));
 }
 
 /// sqrt(sum r^2 / m): the gradient norm in which all cells count alike.
@@ -51,7 +75,7 @@ double gradient_norm(const Domain<Dim>& domain, const DiffusionWork<Dim>& work, 
   double square = 0;
   for (int d = 0; d < Dim; ++d) {
     square += sum<Cell>(domain.layout(), work.matrix.box(), [&](Cell c) {
-      return work.mass[c] > 0 ? gradient[d][c] * gradient[d][c] / work.mass[c] : 0.0;
+      return work.mass[d][c] > 0 ? gradient[d][c] * gradient[d][c] / work.mass[d][c] : 0.0;
     });
   }
   return std::sqrt(square);
@@ -186,15 +210,15 @@ DiffusionReport diffuse(const Domain<Dim>& domain, const CellField& rho, const C
   mark_participants(domain, rho, work);
   for (int d = 0; d < Dim; ++d) {
     for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) {
-      if (!(work.mass[c] > 0)) u[d][c] = u_hat[d][c];
+      if (!(work.mass[d][c] > 0)) u[d][c] = u_hat[d][c];
     });
   }
   DiffusionReport report;
   if (work.matrix.box().empty()) return report;
   double twice_energy = 0;
   for (int d = 0; d < Dim; ++d) {
-    twice_energy +=
-        sum<Cell>(domain.layout(), work.matrix.box(), [&](Cell c) { return work.mass[c] * u_hat[d][c] * u_hat[d][c]; });
+    twice_energy += sum<Cell>(domain.layout(), work.matrix.box(),
+                              [&](Cell c) { return work.mass[d][c] * u_hat[d][c] * u_hat[d][c]; });
   }
   Problem<Dim> problem{domain, u_hat, dt, work, 0, smallest_change * smallest_change * twice_energy};
   // Start from u^ or from the guess, whichever lies lower.
@@ -202,6 +226,7 @@ DiffusionReport diffuse(const Domain<Dim>& domain, const CellField& rho, const C
   const double norm_hat = gradient_norm(domain, work, work.gradient);
   problem.target = options.tolerance * norm_hat;
   if (!(evaluate_functional(domain, u_hat, u, dt, work, work.gradient) < value_hat)) u = u_hat;
+  work.trial = u;  // the iterations swap the two, and write the box only
 
   switch (options.iteration) {
     case ViscousIteration::newton:

@@ -49,7 +49,9 @@ struct DiffusionWork {
   /// size only when some species yields.
   Field<Node, PointStresses<Dim>> stress;
   VelocityMatrix<Dim> matrix;
-  CellField mass;  ///< m in cells that take part, 0 elsewhere
+  /// m of each component in cells that take part, 0 elsewhere. A wall that holds a component takes the quarter of the
+  /// cell next to it.
+  CellVectors<Dim> mass;
   CellVectors<Dim> gradient, trial_gradient, update, trial;
 
   DiffusionWork(const Domain<Dim>& domain, const std::vector<Species>& species);

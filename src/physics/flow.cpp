@@ -67,7 +67,8 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       mac_(domain_.layout()),
       redistribution_(domain_, parameters_.species),
       diffusion_(domain_, parameters_.species),
-      projection_(domain_.layout()) {
+      projection_(domain_.layout()),
+      outer_pressure_(domain_.layout(), parameters_.ambient_pressure) {
   state_.pressure.fill(parameters_.ambient_pressure);
 }
 
@@ -92,8 +93,8 @@ void Flow<Dim>::initialize() {
   const CellVectors<Dim> none(domain_.layout());
   const double dt = 1;
   add_uniform(grid.layout(), grid.cells(), none, dt, parameters_.gravity, u_hat_);
-  require_converged(solve_pressure(domain_, u_hat_, rho_, liquid_, parameters_.ambient_pressure, dt, parameters_.linear,
-                                   projection_, state_.pressure),
+  require_converged(solve_pressure(domain_, u_hat_, rho_, liquid_, outer_pressure_, dt, parameters_.linear, projection_,
+                                   state_.pressure),
                     "initial pressure");
   add_pressure_gradient(domain_, state_.pressure, rho_, liquid_, -dt, u_hat_);
   state_.acceleration = u_hat_;
@@ -176,7 +177,7 @@ StepReport Flow<Dim>::step(double dt) {
 
   add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, dt, u_star);
   const double energy_star = kinetic_energy(grid, next_rho_, u_star);
-  report.projection = solve_pressure(domain_, u_star, next_rho_, next_liquid_, par.ambient_pressure, dt, par.linear,
+  report.projection = solve_pressure(domain_, u_star, next_rho_, next_liquid_, outer_pressure_, dt, par.linear,
                                      projection_, next_.pressure);
   add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, -dt, next_.u);
   report.projection_energy_change = kinetic_energy(grid, next_rho_, next_.u) - energy_star;

@@ -96,6 +96,7 @@ class Flow {
   RedistributionWork<Dim> redistribution_;
   DiffusionWork<Dim> diffusion_;
   ProjectionWork<Dim> projection_;
+  NodeField outer_pressure_;  ///< of the gas around each node
 };
 
 extern template class Flow<2>;

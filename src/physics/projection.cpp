@@ -1,6 +1,7 @@
 #include "physics/projection.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace quicksand {
 
@@ -77,6 +78,16 @@ void mark_free_nodes(const Domain<Dim>& domain, const CellMask& liquid, NodeMask
   });
 }
 
+/// The least pressure given at a node, 0 if there is none. The solver's relative tolerance is to mean differences of
+/// pressure, not their height above zero.
+template <int Dim>
+double least_given(const Domain<Dim>& domain, const NodeMask& free, const NodeField& outer_pressure) {
+  constexpr double none = std::numeric_limits<double>::lowest();
+  const double negative = maximum<Node>(domain.layout(), domain.grid.nodes(), none,
+                                        [&](Node n) { return free[n] ? none : -outer_pressure[n]; });
+  return negative > none ? -negative : 0.0;
+}
+
 /// Matrix dt K on the free nodes, and the right-hand side sum V u-bar* . grad N less what the given nodes contribute.
 template <int Dim>
 void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellField& rho, const CellMask& liquid,
@@ -134,13 +145,14 @@ void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure,
 
 template <int Dim>
 SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, const CellField& rho,
-                           const CellMask& liquid, double gas_pressure, double dt, const SolveOptions& options,
-                           ProjectionWork<Dim>& work, NodeField& pressure) {
+                           const CellMask& liquid, const NodeField& outer_pressure, double dt,
+                           const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure) {
   const Box<Dim> nodes = domain.grid.nodes();
   mark_free_nodes(domain, liquid, work.free);
+  const double reference = least_given(domain, work.free, outer_pressure);
   for_each<Node>(domain.layout(), nodes, [&](Node n) {
-    if (!work.free[n]) pressure[n] = gas_pressure;
-    work.increment[n] = pressure[n] - gas_pressure;
+    if (!work.free[n]) pressure[n] = outer_pressure[n];
+    work.increment[n] = pressure[n] - reference;
   });
   work.matrix.box = bounding_box<Node>(domain.layout(), nodes, [&](Node n) { return work.free[n] != 0; });
   if (work.matrix.box.empty()) return {.converged = true};
@@ -148,7 +160,7 @@ SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_
   const SolveReport report = solve(work.matrix, work.rhs, work.increment, options);
   require_converged(report, "pressure projection");
   for_each<Node>(domain.layout(), work.matrix.box, [&](Node n) {
-    if (work.free[n]) pressure[n] = gas_pressure + work.increment[n];
+    if (work.free[n]) pressure[n] = reference + work.increment[n];
   });
   return report;
 }
@@ -157,7 +169,8 @@ SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_
   template void add_pressure_gradient(const Domain<Dim>&, const NodeField&, const CellField&, const CellMask&, double, \
                                       CellVectors<Dim>&);                                                              \
   template SolveReport solve_pressure(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&, const CellMask&,  \
-                                      double, double, const SolveOptions&, ProjectionWork<Dim>&, NodeField&);
+                                      const NodeField&, double, const SolveOptions&, ProjectionWork<Dim>&,             \
+                                      NodeField&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

@@ -16,7 +16,7 @@ struct ProjectionWork {
   StencilMatrix<Dim, Node> matrix;
   NodeMask free;
   NodeField rhs;
-  NodeField increment;  ///< pressure above the gas pressure
+  NodeField increment;  ///< pressure above the least one given outside D
 
   explicit ProjectionWork(const Layout<Dim>& layout)
       : matrix(layout, Stencil::box), free(layout), rhs(layout), increment(layout) {}
@@ -27,13 +27,15 @@ template <int Dim>
 void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure, const CellField& rho,
                            const CellMask& liquid, double factor_dt, CellVectors<Dim>& u);
 
-/// Solves dt div(1/rho grad P) = div u-bar* in D (51), with P = gas_pressure on nodes that touch a cell outside D.
-/// \param u_bar_star  (52), owned cells
-/// \param pressure    the last step's pressure on entry (first guess), P^{n+1/2} on return; gas_pressure outside D
+/// Solves dt div(1/rho grad P) = div u-bar* in D (51), with P = outer_pressure on nodes that touch a cell outside D.
+/// \param u_bar_star      (52), owned cells
+/// \param outer_pressure  pressure of the gas around each node
+/// \param pressure        the last step's pressure on entry (first guess), P^{n+1/2} on return; outer_pressure outside
+///                        D
 /// \throws NumericalError when the solve does not converge
 template <int Dim>
 SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, const CellField& rho,
-                           const CellMask& liquid, double gas_pressure, double dt, const SolveOptions& options,
-                           ProjectionWork<Dim>& work, NodeField& pressure);
+                           const CellMask& liquid, const NodeField& outer_pressure, double dt,
+                           const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure);
 
 }  // namespace quicksand

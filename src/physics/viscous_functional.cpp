@@ -123,7 +123,7 @@ double evaluate_functional(const Domain<Dim>& domain, const CellVectors<Dim>& u_
   const Box<Dim>& cells = work.matrix.box();
   double inertia = 0;
   for (int d = 0; d < Dim; ++d) {
-    for_each<Cell>(layout, cells, [&](Cell c) { gradient[d][c] = work.mass[c] * (u[d][c] - u_hat[d][c]); });
+    for_each<Cell>(layout, cells, [&](Cell c) { gradient[d][c] = work.mass[d][c] * (u[d][c] - u_hat[d][c]); });
     inertia += sum<Cell>(layout, cells, [&](Cell c) { return 0.5 * gradient[d][c] * (u[d][c] - u_hat[d][c]); });
   }
   Box<Dim> elements = cells;
@@ -164,8 +164,9 @@ void assemble_matrix(const Domain<Dim>& domain, const CellVectors<Dim>& u, doubl
   matrix.clear();
   for (int d = 0; d < Dim; ++d) {
     CellField& diagonal = matrix.centre(d, d);
+    const CellField& mass = work.mass[d];
     // Cells without part get identity rows.
-    for_each<Cell>(layout, matrix.box(), [&](Cell c) { diagonal[c] = work.mass[c] > 0 ? work.mass[c] : 1.0; });
+    for_each<Cell>(layout, matrix.box(), [&](Cell c) { diagonal[c] = mass[c] > 0 ? mass[c] : 1.0; });
   }
   Box<Dim> elements = matrix.box();
   for (int d = 0; d < Dim; ++d) ++elements.hi[d];

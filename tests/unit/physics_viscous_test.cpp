@@ -31,8 +31,10 @@ struct Problem {
         work(domain, mixture.species),
         u_hat(testing::rough_vectors(domain.grid, 40)) {
     mark_stress_elements(domain, mixture.species, mixture.phi, mixture.total, work.elements);
-    for_each<Cell>(domain.layout(), domain.grid.cells(),
-                   [&](Cell c) { work.mass[c] = mixture.rho[c] * domain.grid.volume(c); });
+    for (int e = 0; e < Dim; ++e) {
+      for_each<Cell>(domain.layout(), domain.grid.cells(),
+                     [&](Cell c) { work.mass[e][c] = mixture.rho[c] * domain.grid.volume(c); });
+    }
     work.matrix.set_box(domain.grid.cells());
   }
 
@@ -64,7 +66,7 @@ struct Problem {
   CellVectors<Dim> rough(double seed) const {
     CellVectors<Dim> u = testing::rough_vectors(domain.grid, seed);
     for (int d = 0; d < Dim; ++d) {
-      for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) { u[d][c] *= work.mass[c] > 0 ? 1 : 0; });
+      for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) { u[d][c] *= work.mass[d][c] > 0 ? 1 : 0; });
     }
     return u;
   }

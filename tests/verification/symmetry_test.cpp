@@ -13,7 +13,7 @@ namespace {
 
 /// A block of liquid in a tank, written out for each way to describe the same flow.
 struct Block {
-  std::string law = "{law: papanastasiou, viscosity: 0.01, yield_stress: 0.1, regularization: 50}";
+  std::string law = "{law: papanastasiou, viscosity: 0.01, yield_stress: 0.05, regularization: 50}";
   double end = 0.2;
 };
 
