@@ -22,12 +22,6 @@ FlowParameters<Dim> parameters_of(const CaseConfig& config) {
   return p;
 }
 
-std::size_t species_number(const CaseConfig& config, const std::string& name) {
-  const auto found =
-      std::find_if(config.species.begin(), config.species.end(), [&](const Species& s) { return s.name == name; });
-  return static_cast<std::size_t>(found - config.species.begin());
-}
-
 /// Fills the shapes one after the other; what does not fit on top of earlier ones (round-off of touching shapes) is
 /// left out.
 template <int Dim>

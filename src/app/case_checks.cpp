@@ -65,6 +65,41 @@ void check_grid(const GridConfig& grid, Reading& reading) {
 /// Whether two pressures differ by no more than the conversion of units may cause.
 bool same_pressure(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
 
+/// Notes a species that does not exist.
+void check_name(const CaseConfig& config, const std::optional<std::string>& name, const std::string& path,
+                Reading& reading) {
+  if (!name || !reading.clean("species") || species_number(config, *name) < config.species.size()) return;
+  std::vector<std::string> names;
+  for (const Species& species : config.species) names.push_back(species.name);
+  reading.problem(path, in_quotes(*name) + " is not a species; they are " + join(names) + suggestion(*name, names));
+}
+
+/// Notes what is wrong with the quantities of a side.
+/// \param across  component of vectors that is normal to it
+void check_side(const CaseConfig& config, const SideConfig& side, const std::string& path, int across,
+                bool ambient_known, Reading& reading) {
+  const bool axisymmetric = config.grid.geometry == Geometry::axisymmetric;
+  if (side.kind == SideKind::open) {
+    check_name(config, side.outside, path + ".outside", reading);
+    if (!side.outside && ambient_known && !same_pressure(side.pressure, config.ambient_pressure)) {
+      reading.problem(path + ".open", "must be ambient_pressure = " + shortest(config.ambient_pressure) + ", not " +
+                                          shortest(side.pressure) +
+                                          ": all gas outside has one pressure (name a species in `outside` if liquid "
+                                          "stands there)");
+    }
+  }
+  if (side.kind == SideKind::no_slip && side.velocity[across] != 0) {
+    reading.problem(path + ".no_slip", "must point along the wall");
+  }
+  if (side.kind == SideKind::inflow) {
+    check_name(config, side.inflow.fill, path + ".inflow.fill", reading);
+    const double inwards = (path.ends_with("_min") ? 1 : -1) * side.inflow.velocity[across];
+    if (reading.clean(path) && !(inwards > 0)) reading.problem(path + ".inflow.velocity", "must point into the grid");
+  }
+  const bool radial = side.kind == SideKind::no_slip && side.velocity[0] != 0 && across != 0;
+  if (axisymmetric && radial) reading.problem(path + ".no_slip", "must point along z in axisymmetric cases");
+}
+
 void check_boundaries(const CaseConfig& config, Reading& reading) {
   const GridConfig& grid = config.grid;
   const Boundaries& b = config.boundaries;
@@ -72,24 +107,26 @@ void check_boundaries(const CaseConfig& config, Reading& reading) {
   if (given == nullptr || given->kind != ConfigNode::Kind::map || !reading.clean("grid.dimension")) return;
   const struct {
     const char* name;
-    const std::optional<Side>& side;
+    const std::optional<SideConfig>& side;
     bool exists;
-  } sides[] = {{"x_min", b.x_min, true},
-               {"x_max", b.x_max, true},
-               {"y_min", b.y_min, grid.dimension == 3},
-               {"y_max", b.y_max, grid.dimension == 3},
-               {"z_min", b.z_min, true},
-               {"z_max", b.z_max, true}};
+    int across;  ///< component of vectors normal to the side
+  } sides[] = {{"x_min", b.x_min, true, 0},
+               {"x_max", b.x_max, true, 0},
+               {"y_min", b.y_min, grid.dimension == 3, 1},
+               {"y_max", b.y_max, grid.dimension == 3, 1},
+               {"z_min", b.z_min, true, 2},
+               {"z_max", b.z_max, true, 2}};
   const bool axisymmetric = grid.geometry == Geometry::axisymmetric;
   const bool has_axis = axisymmetric && !grid.x.empty() && grid.x.front().from == 0.0;
   // Where it is missing and something else is wrong, it may be given under a misspelt key.
   const bool ambient_known = reading.root().find("ambient_pressure") != nullptr ? reading.clean("ambient_pressure")
                                                                                 : reading.problems().empty();
-  for (const auto& [name, side, exists] : sides) {
+  for (const auto& [name, side, exists, across] : sides) {
     const std::string path = std::string("boundaries.") + name;
     if (side && !exists) reading.problem(path, "dimension: 2 has no y; its sides are x_min, x_max, z_min, z_max");
     if (!side && exists) {
-      reading.problem(path, "is required but missing: one of axis, symmetry, free_slip, no_slip, {open: PRESSURE}");
+      reading.problem(
+          path, "is required but missing: one of axis, symmetry, free_slip, no_slip, {open: PRESSURE}, {inflow: ...}");
     }
     if (!side || !exists || !reading.clean(path) || !reading.clean("grid")) continue;
     const bool is_axis = side->kind == SideKind::axis;
@@ -100,11 +137,7 @@ void check_boundaries(const CaseConfig& config, Reading& reading) {
     if (!is_axis && has_axis && path == "boundaries.x_min") {
       reading.problem(path, "must be axis: the axisymmetric grid begins at x = 0");
     }
-    if (side->kind == SideKind::open && ambient_known && !same_pressure(side->pressure, config.ambient_pressure)) {
-      reading.problem(path + ".open", "must be ambient_pressure = " + shortest(config.ambient_pressure) + ", not " +
-                                          shortest(side->pressure) +
-                                          ": another pressure outside an open side is not implemented");
-    }
+    check_side(config, *side, path, across, ambient_known, reading);
   }
 }
 

@@ -1,5 +1,8 @@
 #include "app/case_codec.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "core/config_variant.hpp"
 
 namespace quicksand {
@@ -31,36 +34,73 @@ Codec<GridConfig> grid_codec() {
   });
 }
 
-/// A word for closed sides, `{open: PRESSURE}` for open ones.
-Codec<Side> side_codec() {
+Codec<Inflow> inflow_codec() {
+  const auto profile = choice<Profile>({{"uniform", Profile::uniform}, {"parabolic", Profile::parabolic}});
+  return object<Inflow>({
+      required("velocity", &Inflow::velocity, vector_of(dim::velocity), "velocity at the profile's largest"),
+      maybe("fill", &Inflow::fill, identifier(), "species that comes in; gas where absent"),
+      defaulted("profile", &Inflow::profile, profile, "uniform, or parabolic: zero at no-slip walls beside the side"),
+  });
+}
+
+/// A word for sides without quantities, a mapping for those that have some.
+Codec<SideConfig> side_codec() {
   const auto word = choice<SideKind>({{"axis", SideKind::axis},
                                       {"symmetry", SideKind::symmetry},
                                       {"free_slip", SideKind::free_slip},
                                       {"no_slip", SideKind::no_slip}});
-  const auto open = object<Side>({
-      required("open", &Side::pressure, quantity(dim::pressure), "pressure of the gas outside"),
-  });
-  Codec<Side> codec;
-  codec.schema = detail::one_of({word.schema, open.schema});
-  codec.read = [word, open](Reading& reading, const ConfigNode& node, Side& out) {
-    if (node.kind == ConfigNode::Kind::map) {
-      out.kind = SideKind::open;
-      open.read(reading, node, out);
-    } else if (node.kind == ConfigNode::Kind::scalar && node.text == "open") {
-      reading.problem(node, "an open side needs the pressure outside: {open: PRESSURE}");
-    } else {
-      out = Side{};
-      const std::size_t before = reading.problems().size();
-      word.read(reading, node, out.kind);
-      if (reading.problems().size() > before) reading.amend_last(" (or {open: PRESSURE})");
-    }
+  const struct {
+    std::string key;
+    SideKind kind;
+    Codec<SideConfig> codec;
+  } mappings[] = {
+      {"open", SideKind::open,
+       object<SideConfig>({
+           required("open", &SideConfig::pressure, quantity(dim::pressure), "pressure outside"),
+           maybe("outside", &SideConfig::outside, identifier(), "species outside; gas where absent"),
+       })},
+      {"no_slip", SideKind::no_slip,
+       object<SideConfig>({
+           required("no_slip", &SideConfig::velocity, vector_of(dim::velocity), "velocity of the wall along itself"),
+       })},
+      {"inflow", SideKind::inflow,
+       object<SideConfig>({required("inflow", &SideConfig::inflow, inflow_codec(), "what comes in, and how fast")})},
   };
-  codec.write = [word, open](const Side& side) { return is_open(side) ? open.write(side) : word.write(side.kind); };
+  const std::vector maps(std::begin(mappings), std::end(mappings));
+  Codec<SideConfig> codec;
+  std::vector<ConfigNode> schemas{word.schema};
+  for (const auto& map : maps) schemas.push_back(map.codec.schema);
+  codec.schema = detail::one_of(std::move(schemas));
+  const std::string or_mapping = " (or {open: PRESSURE}, {no_slip: VELOCITY}, {inflow: {velocity: VELOCITY}})";
+  codec.read = [word, maps, or_mapping](Reading& reading, const ConfigNode& node, SideConfig& out) {
+    out = SideConfig{};
+    const std::size_t before = reading.problems().size();
+    if (node.kind == ConfigNode::Kind::map) {
+      const auto found =
+          std::find_if(maps.begin(), maps.end(), [&](const auto& map) { return node.find(map.key) != nullptr; });
+      if (found != maps.end()) {
+        out.kind = found->kind;
+        return found->codec.read(reading, node, out);
+      }
+    }
+    if (node.kind == ConfigNode::Kind::scalar && node.text == "open") {
+      return reading.problem(node, "an open side needs the pressure outside: {open: PRESSURE}");
+    }
+    word.read(reading, node, out.kind);
+    if (reading.problems().size() > before) reading.amend_last(or_mapping);
+  };
+  codec.write = [word, maps](const SideConfig& side) {
+    const bool plain_wall = side.kind == SideKind::no_slip && side.velocity == Vec<3>{};
+    for (const auto& map : maps) {
+      if (map.kind == side.kind && !plain_wall) return map.codec.write(side);
+    }
+    return word.write(side.kind);
+  };
   return codec;
 }
 
 Codec<Boundaries> boundaries_codec() {
-  const Codec<Side> side = side_codec();
+  const Codec<SideConfig> side = side_codec();
   return object<Boundaries>({
       maybe("x_min", &Boundaries::x_min, side, "side at the least x, or the axis"),
       maybe("x_max", &Boundaries::x_max, side, "side at the greatest x"),
@@ -144,6 +184,8 @@ Codec<TimeSettings> time_codec() {
             "largest distance in cell widths that liquid moves in one step (or give step)"),
       maybe("max_step", &TimeSettings::max_step, duration, "largest time step, with cfl"),
       maybe("min_step", &TimeSettings::min_step, duration, "time step below which the run is given up, with cfl"),
+      maybe("until_steady", &TimeSettings::until_steady, quantity(dim::none, positive),
+            "the run ends earlier when the flow is as steady as this"),
   });
 }
 

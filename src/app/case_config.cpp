@@ -1,5 +1,6 @@
 #include "app/case_config.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "app/case_codec.hpp"
@@ -30,6 +31,12 @@ CaseConfig read_case(const std::string& file, const std::vector<std::string>& se
 
 CaseConfig parse_case(const std::string& text, const std::string& source, const std::vector<std::string>& settings) {
   return read_document(parse_yaml(text, source), settings);
+}
+
+std::size_t species_number(const CaseConfig& config, const std::string& name) {
+  const auto found =
+      std::find_if(config.species.begin(), config.species.end(), [&](const Species& s) { return s.name == name; });
+  return static_cast<std::size_t>(found - config.species.begin());
 }
 
 std::string to_yaml(const CaseConfig& config) { return to_yaml(case_codec().write(config)); }

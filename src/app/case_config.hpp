@@ -36,9 +36,25 @@ struct GridConfig {
   std::vector<AxisSegment> z;
 };
 
+/// What comes in through a side.
+struct Inflow {
+  Vec<3> velocity;                  ///< the largest one of the profile
+  std::optional<std::string> fill;  ///< species, gas where absent
+  Profile profile = Profile::uniform;
+};
+
+/// A side of the domain; members that its kind does not have stay as they are.
+struct SideConfig {
+  SideKind kind = SideKind::free_slip;
+  double pressure = 0;                 ///< outside an open side
+  std::optional<std::string> outside;  ///< species outside an open side, gas where absent
+  Vec<3> velocity;                     ///< of a no-slip wall
+  Inflow inflow;
+};
+
 /// The sides of the domain; those of y only in 3-D.
 struct Boundaries {
-  std::optional<Side> x_min, x_max, y_min, y_max, z_min, z_max;
+  std::optional<SideConfig> x_min, x_max, y_min, y_max, z_min, z_max;
 };
 
 /// A shape filled with a species, moving with a uniform velocity.
@@ -55,6 +71,8 @@ struct TimeSettings {
   std::optional<double> cfl;
   std::optional<double> max_step;  ///< present with cfl
   std::optional<double> min_step;  ///< may be present with cfl
+  /// The run is over before its end when the flow is as steady as this, see SteadyState.
+  std::optional<double> until_steady;
 };
 
 /// When something is written: at multiples of `every`, or at the given times (increasing); neither: start and end only.
@@ -112,6 +130,9 @@ double count_cells(const GridConfig& config);
 
 /// The box of space that the grid fills; y is [0, 1] in two dimensions.
 Extent domain_of(const GridConfig& config);
+
+/// Number of the species with a name; as many as there are if there is none.
+std::size_t species_number(const CaseConfig& config, const std::string& name);
 
 /// Grid of a case. \pre config.dimension == Dim
 template <int Dim>

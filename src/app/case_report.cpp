@@ -198,7 +198,7 @@ std::vector<std::string> warnings(const CaseConfig& config) {
   const char* axes = Dim == 3 ? "xyz" : "xz";
   for (int d = 0; d < Dim; ++d) {
     for (int s = 0; s < 2; ++s) {
-      if (!is_open(sides.at(d, s))) continue;
+      if (!is_open(sides.at(d, s)) || sides.at(d, s).outside) continue;
       const std::string name = std::string(1, axes[d]) + (s == 0 ? "_min" : "_max");
       if (liquid_near(state, d, s)) {
         found.push_back("liquid begins less than " + std::to_string(least_air_cells) + " cells from the open side " +

@@ -139,15 +139,25 @@ Grid<Dim> make_grid(const GridConfig& config) {
 template <int Dim>
 Sides<Dim> make_sides(const CaseConfig& config) {
   const Boundaries& b = config.boundaries;
+  const auto side = [&](const std::optional<SideConfig>& given) {
+    const SideConfig& s = given.value();
+    const bool inflow = s.kind == SideKind::inflow;
+    Side result{s.kind, s.pressure, std::nullopt, {}, s.inflow.profile};
+    const std::optional<std::string>& outside = inflow ? s.inflow.fill : s.outside;
+    if (outside) result.outside = species_number(config, *outside);
+    const Vec<Dim> along_axes = in_axes<Dim>(inflow ? s.inflow.velocity : s.velocity);
+    for (int d = 0; d < Dim; ++d) result.velocity[d] = along_axes[d];
+    return result;
+  };
   Sides<Dim> sides;
-  sides.at(0, 0) = b.x_min.value();
-  sides.at(0, 1) = b.x_max.value();
+  sides.at(0, 0) = side(b.x_min);
+  sides.at(0, 1) = side(b.x_max);
   if constexpr (Dim == 3) {
-    sides.at(1, 0) = b.y_min.value();
-    sides.at(1, 1) = b.y_max.value();
+    sides.at(1, 0) = side(b.y_min);
+    sides.at(1, 1) = side(b.y_max);
   }
-  sides.at(Dim - 1, 0) = b.z_min.value();
-  sides.at(Dim - 1, 1) = b.z_max.value();
+  sides.at(Dim - 1, 0) = side(b.z_min);
+  sides.at(Dim - 1, 1) = side(b.z_max);
   return sides;
 }
 

@@ -52,6 +52,8 @@ struct Run {
   const CaseConfig& config;
   ResultWriter<Dim> writer;
   TimeControl control;
+  SteadyState steady;
+  bool is_steady = false;
   RunStatistics statistics;
   Progress progress;
 };
@@ -93,11 +95,17 @@ bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
                      "; further such steps are only counted, in summary.json");
   }
   run.statistics.add(report, volumes_with_escaped(flow), state.time);
+  run.is_steady = run.steady.reached(report, state.time);
   run.writer.append_history(flow, diagnose(flow), report);
   run.progress.step(state.time, state.step, state.dt);
   const bool due = run.control.output_due(state.time);
   if (due) write_fields(flow, run);
   return due;
+}
+
+template <int Dim>
+bool is_over(const Flow<Dim>& flow, const Run<Dim>& run) {
+  return run.is_steady || run.control.finished(flow.state().time);
 }
 
 /// Takes all steps, or as many as the user lets it. \return whether the end was reached
@@ -110,7 +118,7 @@ bool march(Run<Dim>& run) {
   run.writer.append_history(flow, diagnose(flow), StepReport{});
   bool written = true;
   try {
-    while (!run.control.finished(flow.state().time) && interrupt_signal() == 0) written = take_step(flow, run);
+    while (!is_over(flow, run) && interrupt_signal() == 0) written = take_step(flow, run);
   } catch (const NumericalError& error) {
     const std::filesystem::path file = run.writer.write_failed_state(flow);
     throw NumericalError("step " + std::to_string(flow.state().step + 1) + " at time " +
@@ -118,7 +126,7 @@ bool march(Run<Dim>& run) {
                          file.string());
   }
   if (!written) write_fields(flow, run);
-  return run.control.finished(flow.state().time);
+  return is_over(flow, run);
 }
 
 /// Leaves a summary of a run that is about to end with an error, if it can still be written.
@@ -132,13 +140,24 @@ void summarize_failure(Run<Dim>& run, const std::string& message) {
 }
 
 template <int Dim>
+std::string steadiness_text(const Run<Dim>& run) {
+  return std::string(run.is_steady ? "the flow is steady" : "warning: the flow is not steady yet") +
+         ", time |du/dt| / max |u| = " + number_text(run.steady.unsteadiness());
+}
+
+template <int Dim>
 int run_in(const CaseConfig& config, const RunOptions& options) {
   const std::string& folder = config.output.directory;
   const long cells = static_cast<long>(count_cells(config.grid));
   std::vector<std::string> species;
   for (const Species& s : config.species) species.push_back(s.name);
-  Run<Dim> run{config, ResultWriter<Dim>(config, folder), TimeControl(config.time, config.output.fields),
-               RunStatistics(species, cells), Progress(config.time.end, cells, options.quiet)};
+  Run<Dim> run{config,
+               ResultWriter<Dim>(config, folder),
+               TimeControl(config.time, config.output.fields),
+               SteadyState(config.time.until_steady),
+               false,
+               RunStatistics(species, cells),
+               Progress(config.time.end, cells, options.quiet)};
   bool finished = false;
   try {
     finished = march(run);
@@ -148,6 +167,10 @@ int run_in(const CaseConfig& config, const RunOptions& options) {
   } catch (const std::exception& error) {
     summarize_failure(run, error.what());
     throw;
+  }
+  if (run.steady.wanted()) {
+    run.statistics.note_steadiness(run.is_steady, run.steady.unsteadiness());
+    if (finished) run.progress.say(steadiness_text(run));
   }
   const std::string status = finished ? "finished" : "interrupted";
   run.writer.write_summary(

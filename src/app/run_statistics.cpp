@@ -69,6 +69,10 @@ Json RunStatistics::summary(const std::string& status, const std::string& messag
   if (!message.empty()) json["message"] = message;
   json["time"] = time_;
   json["steps"] = steps_;
+  if (steadiness_) {
+    json["steady"] = steadiness_->first;
+    json["unsteadiness"] = steadiness_->second;
+  }
   json["retried_steps"] = retries_;
   json["steps_beyond_cfl"] = steps_beyond_cfl_;
   json["cells"] = cells_;

@@ -3,7 +3,9 @@
 /// What a run adds up over its steps, for `summary.json`.
 #include <array>
 #include <chrono>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/text_output.hpp"
@@ -33,6 +35,9 @@ class RunStatistics {
   /// Counts a fixed step beyond the CFL limit; returns how many there are.
   long count_step_beyond_cfl() { return ++steps_beyond_cfl_; }
 
+  /// For runs that end when they are steady: whether they are, and SteadyState::unsteadiness().
+  void note_steadiness(bool steady, double unsteadiness) { steadiness_ = {steady, unsteadiness}; }
+
   long steps() const { return steps_; }
 
   /// The document of `summary.json`.
@@ -47,6 +52,7 @@ class RunStatistics {
   long retries_ = 0;
   long steps_beyond_cfl_ = 0;
   long fallbacks_ = 0;
+  std::optional<std::pair<bool, double>> steadiness_;
   std::vector<double> initial_volume_;
   std::vector<double> volume_error_;
   double energy_scale_ = 0;

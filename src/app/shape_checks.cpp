@@ -101,7 +101,7 @@ void check_inside(const CaseConfig& config, const Shape& shape, const std::strin
   const Geometry geometry = geometry_of(config.grid);
   const Extent extent = bounds(shape, geometry);
   const Boundaries& b = config.boundaries;
-  const std::optional<Side> sides[3][2] = {{b.x_min, b.x_max}, {b.y_min, b.y_max}, {b.z_min, b.z_max}};
+  const std::optional<SideConfig> sides[3][2] = {{b.x_min, b.x_max}, {b.y_min, b.y_max}, {b.z_min, b.z_max}};
   const char* names[] = {"x", "y", "z"};
   for (int d = 0; d < 3; ++d) {
     if (d == 1 && geometry != Geometry::cartesian) continue;
@@ -109,7 +109,7 @@ void check_inside(const CaseConfig& config, const Shape& shape, const std::strin
       const double reach = s == 0 ? extent.low[d] : extent.high[d];
       const double end = s == 0 ? domain.low[d] : domain.high[d];
       const double beyond = s == 0 ? end - reach : reach - end;
-      const std::optional<Side>& side = sides[d][s];
+      const std::optional<SideConfig>& side = sides[d][s];
       const bool mirrored = side && (side->kind == SideKind::axis || side->kind == SideKind::symmetry);
       if (mirrored || !std::isfinite(reach) || beyond <= rounding * (domain.high[d] - domain.low[d])) continue;
       reading.problem(path, std::string("reaches beyond the grid: to ") + names[d] + " = " + shortest(reach) +

@@ -23,6 +23,12 @@ constexpr double time_slack = 1e-12;
 
 }  // namespace
 
+bool SteadyState::reached(const StepReport& report, double time) {
+  largest_norm_ = std::max(largest_norm_, report.momentum_norm);
+  unsteadiness_ = largest_norm_ > 0 ? time * report.momentum_change / largest_norm_ : 0.0;
+  return tolerance_ && unsteadiness_ <= *tolerance_;
+}
+
 TimeControl::TimeControl(const TimeSettings& time, const OutputSchedule& fields) : time_(time), fields_(fields) {}
 
 double TimeControl::next_output() const {

@@ -2,8 +2,28 @@
 /// \file
 /// Sizes of time steps and times of output.
 #include "app/case_config.hpp"
+#include "physics/flow.hpp"
 
 namespace quicksand {
+
+/// Tells when a flow has become steady: when time ||du/dt|| <= tolerance max ||u||, with the norm sqrt(sum m |u|^2) and
+/// the largest one so far. What changes by a power of time never counts as steady, what decays exponentially does in
+/// the end, and a flow that comes to rest is compared with how it moved.
+class SteadyState {
+ public:
+  explicit SteadyState(std::optional<double> tolerance) : tolerance_(tolerance) {}
+
+  /// Takes note of a step that ended at `time`. \returns whether the flow is steady; never without a tolerance
+  bool reached(const StepReport& report, double time);
+  /// time ||du/dt|| / max ||u|| of the last step; 0 for a flow that has not moved at all.
+  double unsteadiness() const { return unsteadiness_; }
+  bool wanted() const { return tolerance_.has_value(); }
+
+ private:
+  std::optional<double> tolerance_;
+  double largest_norm_ = 0;
+  double unsteadiness_ = 0;
+};
 
 /// Decides how long the next step is: the case's fixed step whatever the CFL number, or the stable one within the
 /// case's limits. A step is changed so that one ends at the end of the run and, with steps by CFL number, at every

@@ -5,18 +5,28 @@
 /// A ghost value is affine in its mirror cell, ghost = alpha * mirror + beta, so that the same rule fills ghost cells
 /// and enters a matrix (diagonal += alpha * coefficient, right-hand side -= beta * coefficient).
 #include <array>
+#include <optional>
 
 #include "core/field.hpp"
 #include "core/grid.hpp"
 
 namespace quicksand {
 
-enum class SideKind { axis, symmetry, free_slip, no_slip, open };
+enum class SideKind { axis, symmetry, free_slip, no_slip, open, inflow };
+
+/// How the velocity of an inflow side varies across it.
+enum class Profile {
+  uniform,
+  parabolic,  ///< falls to zero at walls that hold the flow, along every axis of the side
+};
 
 /// One side of the domain as the user names it.
 struct Side {
   SideKind kind = SideKind::free_slip;
-  double pressure = 0;  ///< outside pressure of an open side
+  double pressure = 0;                   ///< outside pressure of an open side
+  std::optional<std::size_t> outside{};  ///< species beyond an open or inflow side; none: gas
+  Vec<3> velocity{};                     ///< of a no-slip wall along itself, or of an inflow; along the grid's axes
+  Profile profile = Profile::uniform;    ///< of an inflow, whose largest velocity is `velocity`
 };
 
 /// Low (0) and high (1) side along every axis.
@@ -35,13 +45,15 @@ struct GhostRule {
 
 /// Whether liquid and momentum can leave through the side.
 constexpr bool is_open(const Side& side) { return side.kind == SideKind::open; }
-/// Volume fractions: mirrored at closed sides, gas outside open ones.
-GhostRule fraction_rule(const Side& side);
+/// Whether something crosses the side, freely or at a given velocity.
+constexpr bool is_passable(const Side& side) { return is_open(side) || side.kind == SideKind::inflow; }
+/// Volume fraction of a species: mirrored at closed sides; beyond others 1 for the species outside, 0 for all else.
+GhostRule fraction_rule(const Side& side, std::size_t species);
 /// Velocity in convection and redistribution, where no wall drags: normal component odd and tangential even at closed
-/// sides, both continued at open ones.
+/// sides, both continued at open ones, nought at inflow sides, to which their velocity is then added.
 GhostRule inviscid_velocity_rule(const Side& side, bool normal);
-/// Velocity in the viscous stress: as above, but tangential zero on a no-slip wall and on an open side (report, tube
-/// flow).
+/// Velocity relative to the side's in the viscous stress: as above, but tangential zero on a no-slip wall, on an open
+/// side (report, tube flow) and, like the normal one, on an inflow side.
 GhostRule viscous_velocity_rule(const Side& side, bool normal);
 /// Potentials whose gradient moves volume (H, MAC pressure increment): flux zero at closed sides, zero on open ones.
 GhostRule potential_rule(const Side& side);
@@ -73,17 +85,17 @@ void fill_ghosts(const Grid<Dim>& grid, CellField& field, Rule&& rule) {
   }
 }
 
-/// Ghost cells of volume fractions.
+/// Ghost cells of the volume fraction of a species.
 template <int Dim>
-void fill_fraction_ghosts(const Grid<Dim>& grid, const Sides<Dim>& sides, CellField& phi) {
-  fill_ghosts(grid, phi, [&](int d, int s) { return fraction_rule(sides.at(d, s)); });
+void fill_fraction_ghosts(const Grid<Dim>& grid, const Sides<Dim>& sides, std::size_t species, CellField& phi) {
+  fill_ghosts(grid, phi, [&](int d, int s) { return fraction_rule(sides.at(d, s), species); });
 }
 
-/// Ghost cells of a velocity for convection and redistribution.
+/// Ghost cells of an acceleration for convection; see Domain for velocities.
 template <int Dim>
-void fill_velocity_ghosts(const Grid<Dim>& grid, const Sides<Dim>& sides, CellVectors<Dim>& u) {
+void fill_acceleration_ghosts(const Grid<Dim>& grid, const Sides<Dim>& sides, CellVectors<Dim>& a) {
   for (int e = 0; e < Dim; ++e) {
-    fill_ghosts(grid, u[e], [&](int d, int s) { return inviscid_velocity_rule(sides.at(d, s), d == e); });
+    fill_ghosts(grid, a[e], [&](int d, int s) { return inviscid_velocity_rule(sides.at(d, s), d == e); });
   }
 }
 

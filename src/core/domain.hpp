@@ -6,12 +6,36 @@
 
 namespace quicksand {
 
+/// What a cell lies beyond: nothing for owned cells and for ghost cells that mirror or continue them.
+enum class Beyond : unsigned char {
+  nothing,
+  open,    ///< an open side, perhaps others as well
+  inflow,  ///< an inflow side and no open one
+};
+
+/// Velocities of moving walls and inflow sides.
+template <int Dim>
+class SideVelocities {
+ public:
+  SideVelocities(const Grid<Dim>& grid, const Sides<Dim>& sides);
+  /// Whether any side has a velocity.
+  bool any() const;
+  /// Velocity of side s of axis d at the point x: of an inflow with its profile, or of a wall.
+  Vec<Dim> at(int d, int s, const Vec<Dim>& x) const;
+
+ private:
+  Sides<Dim> sides_;
+  Vec<Dim> low_, high_;  ///< ends of the domain
+};
+
 /// Grid, sides and the face areas that liquid can cross.
 template <int Dim>
 struct Domain {
   Grid<Dim> grid;
   Sides<Dim> sides;
-  FaceScalars<Dim> aperture;  ///< face area, zero on closed sides of the domain
+  FaceScalars<Dim> aperture;   ///< face area, zero on closed sides of the domain
+  Field<Cell, Beyond> beyond;  ///< both ghost layers included
+  SideVelocities<Dim> side_velocities;
 
   Domain(Grid<Dim> g, const Sides<Dim>& s);
 
@@ -20,6 +44,12 @@ struct Domain {
   Box<Dim> side_faces(int d, int s) const;
 };
 
+/// Ghost cells of a velocity for convection and redistribution.
+template <int Dim>
+void fill_velocity_ghosts(const Domain<Dim>& domain, CellVectors<Dim>& u);
+
+extern template class SideVelocities<2>;
+extern template class SideVelocities<3>;
 extern template struct Domain<2>;
 extern template struct Domain<3>;
 

@@ -73,6 +73,26 @@ double advect_half(const CellVectors<Dim>& u, Cell c, double dt, Slope&& slope_a
   return change;
 }
 
+/// Whether a face lies on an inflow side, where velocity is given.
+template <int Dim>
+bool on_inflow(const Domain<Dim>& domain, Cell low, Cell high) {
+  return domain.beyond[low] == Beyond::inflow || domain.beyond[high] == Beyond::inflow;
+}
+
+/// Normal velocities on the faces of inflow sides.
+template <int Dim>
+void impose_inflow(const Domain<Dim>& domain, FaceScalars<Dim>& u_mac) {
+  const Grid<Dim>& grid = domain.grid;
+  for (int d = 0; d < Dim; ++d) {
+    for (int s = 0; s < 2; ++s) {
+      if (domain.sides.at(d, s).kind != SideKind::inflow) continue;
+      for_each_indexed<Face>(
+          domain.layout(), intersect(domain.side_faces(d, s), grid.faces(d)),
+          [&](Face f, const Index<Dim>& i) { u_mac[d][f] = domain.side_velocities.at(d, s, grid.centre(i))[d]; });
+    }
+  }
+}
+
 /// Planes of the species' nested regions: plane i bounds species 0 ... i together, the last one is the liquid's
 /// surface.
 template <int Dim>
@@ -188,6 +208,7 @@ void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& i
               : 0.0;
     });
   }
+  impose_inflow(domain, velocities.mac);
 }
 
 template <int Dim>
@@ -202,12 +223,13 @@ void split_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in,
       const double mac = velocities.mac[d][f];
       double up = mac;
       double down = mac;
+      const bool given = on_inflow(domain, low, high);
       // A gas-side cell gives with its own velocity; into liquid at least as fast as the liquid recedes.
-      if (!in.liquid[low]) {
+      if (!in.liquid[low] && !given) {
         const double own = reconstruction.face_velocity(work.u_half[d], in.u[d], low, d, 1);
         up = in.liquid[high] ? std::max(mac, own) : own;
       }
-      if (!in.liquid[high]) {
+      if (!in.liquid[high] && !given) {
         const double own = reconstruction.face_velocity(work.u_half[d], in.u[d], high, d, -1);
         down = in.liquid[low] ? std::min(mac, own) : own;
       }

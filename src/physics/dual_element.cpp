@@ -4,7 +4,10 @@ namespace quicksand {
 
 template <int Dim>
 DualMesh<Dim>::DualMesh(const Domain<Dim>& domain)
-    : cells_(domain.grid.owned_cells()), axisymmetric_(domain.grid.axisymmetric()) {
+    : cells_(domain.grid.owned_cells()),
+      axisymmetric_(domain.grid.axisymmetric()),
+      side_velocities_(domain.side_velocities),
+      sides_move_(side_velocities_.any()) {
   const Grid<Dim>& grid = domain.grid;
   for (int d = 0; d < Dim; ++d) {
     step_[d] = grid.step(d);
@@ -22,6 +25,32 @@ DualMesh<Dim>::DualMesh(const Domain<Dim>& domain)
         wall_factor_[d][s][c] = 0.5 * (1 + viscous_velocity_rule(domain.sides.at(d, s), c == d).alpha);
       }
     }
+  }
+}
+
+template <int Dim>
+void DualMesh<Dim>::set_wall_velocities(const Index<Dim>& i, DualElement<Dim>& e) const {
+  for (int k = 0; k < corner_count<Dim>; ++k) {
+    Vec<Dim> x;
+    for (int d = 0; d < Dim; ++d) {
+      x[d] = axes_[static_cast<std::size_t>(d)].position[static_cast<std::size_t>(i[d] + ((k >> d) & 1))];
+    }
+    double free[Dim];  // component by component: product of the factors of the sides met so far
+    for (int c = 0; c < Dim; ++c) {
+      e.wall[k][c] = 0;
+      free[c] = 1;
+    }
+    for (int d = 0; d < Dim; ++d) {
+      const int s = (k >> d) & 1;
+      if (i[d] != (s == 0 ? 0 : cells_[d])) continue;
+      const Vec<Dim> given = side_velocities_.at(d, s, x);
+      for (int c = 0; c < Dim; ++c) {
+        const double factor = wall_factor_[d][s][c];
+        e.wall[k][c] = factor * e.wall[k][c] + (1 - factor) * free[c] * given[c];
+        free[c] *= factor;
+      }
+    }
+    for (int c = 0; c < Dim; ++c) e.moved = e.moved || e.wall[k][c] != 0;
   }
 }
 

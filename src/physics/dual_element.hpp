@@ -61,12 +61,14 @@ inline constexpr MidEdgeShapes<Dim> mid_edge_shapes{};
 /// Where an element lies and which cells stand for its corners.
 ///
 /// A corner on the boundary has no velocity of its own: component e there is factor[k][e] times that of the cell next
-/// to it (0 where the wall holds it, 1 where it is free).
+/// to it (0 where the wall holds it, 1 where it is free), plus wall[k][e] where the wall moves.
 template <int Dim>
 struct DualElement {
   Cell corner[corner_count<Dim>];
   int place[corner_count<Dim>];  ///< sum of 3^d over the axes d along which the corner's cell is the higher of two
   double factor[corner_count<Dim>][Dim];
+  bool moved = false;  ///< whether any wall[k][e] is not zero; only then are they set
+  double wall[corner_count<Dim>][Dim];
   double inverse_width[Dim];
   double radius[2];  ///< of the two ends along axis 0; 1 unless axisymmetric
   double measure;    ///< product of the widths
@@ -122,10 +124,14 @@ class DualMesh {
         }
       }
     }
+    if (sides_move_) set_wall_velocities(i, e);
     return e;
   }
 
  private:
+  /// Velocities of boundary corners that moving walls and inflow sides hold. Where two sides hold a corner, it rests.
+  void set_wall_velocities(const Index<Dim>& i, DualElement<Dim>& e) const;
+
   struct Axis {
     std::vector<double> position;  ///< low boundary point, centres, high boundary point
     std::vector<double> width;     ///< of the intervals between positions
@@ -135,13 +141,26 @@ class DualMesh {
   Step step_[Dim];
   double wall_factor_[Dim][2][Dim];  ///< [axis][side][component]
   bool axisymmetric_;
+  SideVelocities<Dim> side_velocities_;
+  bool sides_move_;
 };
 
-/// Corner velocities of an element, boundary factors applied.
+/// Changes of an element's corner velocities for changes of the cells' velocities: boundary factors applied.
+template <int Dim>
+void gather_change(const DualElement<Dim>& e, const CellVectors<Dim>& change,
+                   double (&corner)[corner_count<Dim>][Dim]) {
+  for (int k = 0; k < corner_count<Dim>; ++k) {
+    for (int c = 0; c < Dim; ++c) corner[k][c] = e.factor[k][c] * change[c][e.corner[k]];
+  }
+}
+
+/// Corner velocities of an element, those of moving walls included.
 template <int Dim>
 void gather(const DualElement<Dim>& e, const CellVectors<Dim>& u, double (&corner)[corner_count<Dim>][Dim]) {
+  gather_change(e, u, corner);
+  if (!e.moved) return;
   for (int k = 0; k < corner_count<Dim>; ++k) {
-    for (int c = 0; c < Dim; ++c) corner[k][c] = e.factor[k][c] * u[c][e.corner[k]];
+    for (int c = 0; c < Dim; ++c) corner[k][c] += e.wall[k][c];
   }
 }
 

@@ -70,18 +70,19 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       projection_(domain_.layout()),
       outer_pressure_(domain_.layout(), parameters_.ambient_pressure) {
   state_.pressure.fill(parameters_.ambient_pressure);
+  set_open_pressures(domain_, outer_pressure_);
 }
 
 template <int Dim>
 void Flow<Dim>::refresh() {
   const Grid<Dim>& grid = domain_.grid;
-  for (CellField& phi_i : state_.phi) fill_fraction_ghosts(grid, domain_.sides, phi_i);
+  for (std::size_t i = 0; i < state_.phi.size(); ++i) fill_fraction_ghosts(grid, domain_.sides, i, state_.phi[i]);
   sum_fractions(grid, state_.phi, total_);
   mix_density(grid, parameters_.species, state_.phi, rho_);
   mark_liquid(grid, total_, parameters_.liquid_threshold, liquid_);
   clear_without_mass(grid, rho_, state_.u);
-  fill_velocity_ghosts(grid, domain_.sides, state_.u);
-  fill_velocity_ghosts(grid, domain_.sides, state_.acceleration);
+  fill_velocity_ghosts(domain_, state_.u);
+  fill_acceleration_ghosts(grid, domain_.sides, state_.acceleration);
 }
 
 template <int Dim>
@@ -93,8 +94,8 @@ void Flow<Dim>::initialize() {
   const CellVectors<Dim> none(domain_.layout());
   const double dt = 1;
   add_uniform(grid.layout(), grid.cells(), none, dt, parameters_.gravity, u_hat_);
-  require_converged(solve_pressure(domain_, u_hat_, rho_, liquid_, outer_pressure_, dt, parameters_.linear, projection_,
-                                   state_.pressure),
+  require_converged(solve_pressure(domain_, Projected::acceleration, u_hat_, rho_, liquid_, outer_pressure_, dt,
+                                   parameters_.linear, projection_, state_.pressure),
                     "initial pressure");
   add_pressure_gradient(domain_, state_.pressure, rho_, liquid_, -dt, u_hat_);
   state_.acceleration = u_hat_;
@@ -153,7 +154,7 @@ StepReport Flow<Dim>::step(double dt) {
   clock(Phase::convection);
 
   report.obstacle = redistribute_volume(domain_, par.species, par.obstacle, redistribution_, next_.phi, escaped);
-  for (CellField& phi_i : next_.phi) fill_fraction_ghosts(grid, domain_.sides, phi_i);
+  for (std::size_t i = 0; i < next_.phi.size(); ++i) fill_fraction_ghosts(grid, domain_.sides, i, next_.phi[i]);
   sum_fractions(grid, next_.phi, next_total_);
   mix_density(grid, par.species, next_.phi, next_rho_);
   mark_liquid(grid, next_total_, par.liquid_threshold, next_liquid_);
@@ -177,12 +178,15 @@ StepReport Flow<Dim>::step(double dt) {
 
   add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, dt, u_star);
   const double energy_star = kinetic_energy(grid, next_rho_, u_star);
-  report.projection = solve_pressure(domain_, u_star, next_rho_, next_liquid_, outer_pressure_, dt, par.linear,
-                                     projection_, next_.pressure);
+  report.projection = solve_pressure(domain_, Projected::velocity, u_star, next_rho_, next_liquid_, outer_pressure_, dt,
+                                     par.linear, projection_, next_.pressure);
   add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, -dt, next_.u);
   report.projection_energy_change = kinetic_energy(grid, next_rho_, next_.u) - energy_star;
   scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, u_bar_, next_.acceleration);
   require_finite(grid, next_);
+  report.momentum_norm = std::sqrt(2 * kinetic_energy(grid, next_rho_, next_.u));
+  scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, state_.u, u_hat_);
+  report.momentum_change = std::sqrt(2 * kinetic_energy(grid, next_rho_, u_hat_));
   clock(Phase::projection);
 
   next_.time = state_.time + dt;

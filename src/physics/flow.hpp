@@ -43,6 +43,8 @@ struct StepReport {
   SolveReport projection;
   double redistribution_energy_change = 0;  ///< kinetic energy after less before, (24)-(27) and (11) together
   double projection_energy_change = 0;      ///< kinetic energy of u^{n+1} less that of (52)
+  double momentum_norm = 0;                 ///< sqrt(sum V rho |u^{n+1}|^2)
+  double momentum_change = 0;               ///< sqrt(sum V rho |u^{n+1} - u^n|^2) / dt
 };
 
 /// A flow on one grid: its state and the work arrays of its phases.

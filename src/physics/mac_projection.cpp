@@ -4,14 +4,17 @@ namespace quicksand {
 
 namespace {
 
-/// 1 / (rho h) over the liquid part of the way between the two cells of a face; 0 on closed faces and outside D.
+/// 1 / (rho h) over the liquid part of the way between the two cells of a face; 0 where the velocity is given (closed
+/// and inflow sides) and outside D. On open sides q = 0.
 template <int Dim>
 double mobility(const Domain<Dim>& domain, const CellField& rho, const CellMask& liquid, int d, Face f) {
   const Cell high = high_cell(f);
   const Cell low = high - domain.grid.step(d);
-  const double resistance = (liquid[low] ? 0.5 * rho[low] * domain.grid.width(d, low) : 0.0) +
-                            (liquid[high] ? 0.5 * rho[high] * domain.grid.width(d, high) : 0.0);
-  return resistance > 0 && domain.aperture[d][f] > 0 ? 1 / resistance : 0.0;
+  const auto resists = [&](Cell c) { return liquid[c] && domain.beyond[c] == Beyond::nothing; };
+  const double resistance = (resists(low) ? 0.5 * rho[low] * domain.grid.width(d, low) : 0.0) +
+                            (resists(high) ? 0.5 * rho[high] * domain.grid.width(d, high) : 0.0);
+  const bool given = domain.beyond[low] == Beyond::inflow || domain.beyond[high] == Beyond::inflow;
+  return resistance > 0 && domain.aperture[d][f] > 0 && !given ? 1 / resistance : 0.0;
 }
 
 template <int Dim>
@@ -24,8 +27,7 @@ void assemble(const Domain<Dim>& domain, const CellField& rho, const CellMask& l
     for (int d = 0; d < Dim; ++d) {
       const double below = coefficient(d, low_face(c));
       diagonal += below + coefficient(d, low_face(c + grid.step(d)));
-      // A low neighbour beyond the owned box counts as q = 0: only gas lies there, or a closed side without
-      // coefficient.
+      // A low neighbour beyond the owned box counts as q = 0: it lies beyond an open side, or there is no coefficient.
       matrix.lower[static_cast<std::size_t>(d)][c] = liquid[c] && liquid[c - grid.step(d)] ? -below : 0.0;
     }
     matrix.diagonal[c] = liquid[c] && diagonal > 0 ? diagonal : 1.0;

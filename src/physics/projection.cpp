@@ -67,13 +67,16 @@ struct PairTable {
   }
 };
 
-/// A node is solved for if all cells around it, in the domain or mirrored, are liquid.
+/// A node is solved for if all cells around it, in the domain or mirrored, are liquid, and none beyond an open side.
 template <int Dim>
 void mark_free_nodes(const Domain<Dim>& domain, const CellMask& liquid, NodeMask& free) {
   const Corners<Dim> corners(domain.layout());
   for_each<Node>(domain.layout(), domain.grid.nodes(), [&](Node n) {
     bool all = true;
-    for (int k = 0; k < Corners<Dim>::count; ++k) all = all && liquid[high_cell(n) - corners.step[k]];
+    for (int k = 0; k < Corners<Dim>::count; ++k) {
+      const Cell c = high_cell(n) - corners.step[k];
+      all = all && liquid[c] && domain.beyond[c] != Beyond::open;
+    }
     free[n] = all ? 1 : 0;
   });
 }
@@ -125,7 +128,50 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
   });
 }
 
+/// What comes in through inflow sides: -integral of N u . n over them, on the right-hand side.
+template <int Dim>
+void add_inflow(const Domain<Dim>& domain, const CellMask& liquid, ProjectionWork<Dim>& work) {
+  using C = Corners<Dim>;
+  const Grid<Dim>& grid = domain.grid;
+  const C corners(domain.layout());
+  for (int d = 0; d < Dim; ++d) {
+    for (int s = 0; s < 2; ++s) {
+      if (domain.sides.at(d, s).kind != SideKind::inflow) continue;
+      for_each_coloured<Face>(domain.layout(), intersect(domain.side_faces(d, s), grid.faces(d)),
+                              [&](Face f, const Index<Dim>& i) {
+                                const Cell inner = s == 0 ? high_cell(f) : high_cell(f) - grid.step(d);
+                                if (!liquid[inner]) return;
+                                const double u = domain.side_velocities.at(d, s, grid.centre(i))[d];
+                                const double inwards = (s == 0 ? u : -u) * grid.area(d, f);
+                                for (int k = 0; k < C::count; ++k) {
+                                  if (C::bit(k, d) == 1) continue;
+                                  double part = inwards;
+                                  for (int e = 0; e < Dim; ++e) {
+                                    if (e != d) part *= grid.line_element(e, i[e]).fraction[C::bit(k, e)];
+                                  }
+                                  const Node n = Node{f.n} + corners.step[k];
+                                  if (work.free[n]) work.rhs[n] += part;
+                                }
+                              });
+    }
+  }
+}
+
 }  // namespace
+
+template <int Dim>
+void set_open_pressures(const Domain<Dim>& domain, NodeField& outer_pressure) {
+  const Box<Dim> nodes = domain.grid.nodes();
+  for (int d = 0; d < Dim; ++d) {
+    for (int s = 0; s < 2; ++s) {
+      const Side& side = domain.sides.at(d, s);
+      if (!is_open(side) || !domain.grid.at_boundary(d, s)) continue;
+      Box<Dim> layer = nodes;
+      (s == 0 ? layer.hi[d] : layer.lo[d]) = s == 0 ? 1 : nodes.hi[d] - 1;
+      for_each<Node>(domain.layout(), layer, [&](Node n) { outer_pressure[n] = side.pressure; });
+    }
+  }
+}
 
 template <int Dim>
 void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure, const CellField& rho,
@@ -144,8 +190,8 @@ void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure,
 }
 
 template <int Dim>
-SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, const CellField& rho,
-                           const CellMask& liquid, const NodeField& outer_pressure, double dt,
+SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const CellVectors<Dim>& u_bar_star,
+                           const CellField& rho, const CellMask& liquid, const NodeField& outer_pressure, double dt,
                            const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure) {
   const Box<Dim> nodes = domain.grid.nodes();
   mark_free_nodes(domain, liquid, work.free);
@@ -157,6 +203,7 @@ SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_
   work.matrix.box = bounding_box<Node>(domain.layout(), nodes, [&](Node n) { return work.free[n] != 0; });
   if (work.matrix.box.empty()) return {.converged = true};
   assemble(domain, u_bar_star, rho, liquid, dt, work.increment, work);
+  if (what == Projected::velocity) add_inflow(domain, liquid, work);
   const SolveReport report = solve(work.matrix, work.rhs, work.increment, options);
   require_converged(report, "pressure projection");
   for_each<Node>(domain.layout(), work.matrix.box, [&](Node n) {
@@ -168,9 +215,10 @@ SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_
 #define QUICKSAND_INSTANTIATE(Dim)                                                                                     \
   template void add_pressure_gradient(const Domain<Dim>&, const NodeField&, const CellField&, const CellMask&, double, \
                                       CellVectors<Dim>&);                                                              \
-  template SolveReport solve_pressure(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&, const CellMask&,  \
-                                      const NodeField&, double, const SolveOptions&, ProjectionWork<Dim>&,             \
-                                      NodeField&);
+  template void set_open_pressures(const Domain<Dim>&, NodeField&);                                                    \
+  template SolveReport solve_pressure(const Domain<Dim>&, Projected, const CellVectors<Dim>&, const CellField&,        \
+                                      const CellMask&, const NodeField&, double, const SolveOptions&,                  \
+                                      ProjectionWork<Dim>&, NodeField&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

@@ -27,15 +27,24 @@ template <int Dim>
 void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure, const CellField& rho,
                            const CellMask& liquid, double factor_dt, CellVectors<Dim>& u);
 
-/// Solves dt div(1/rho grad P) = div u-bar* in D (51), with P = outer_pressure on nodes that touch a cell outside D.
+/// Pressures of open sides on their nodes; other nodes stay as they are.
+template <int Dim>
+void set_open_pressures(const Domain<Dim>& domain, NodeField& outer_pressure);
+
+/// What solve_pressure() makes divergence-free: on inflow sides a velocity has their normal velocity, an acceleration
+/// none.
+enum class Projected { velocity, acceleration };
+
+/// Solves dt div(1/rho grad P) = div u-bar* in D (51), with P = outer_pressure on nodes that touch a cell outside D or
+/// lie on an open side.
 /// \param u_bar_star      (52), owned cells
-/// \param outer_pressure  pressure of the gas around each node
+/// \param outer_pressure  pressure of the gas around each node, and of open sides on their nodes
 /// \param pressure        the last step's pressure on entry (first guess), P^{n+1/2} on return; outer_pressure outside
 ///                        D
 /// \throws NumericalError when the solve does not converge
 template <int Dim>
-SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, const CellField& rho,
-                           const CellMask& liquid, const NodeField& outer_pressure, double dt,
+SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const CellVectors<Dim>& u_bar_star,
+                           const CellField& rho, const CellMask& liquid, const NodeField& outer_pressure, double dt,
                            const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure);
 
 }  // namespace quicksand

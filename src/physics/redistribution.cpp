@@ -94,9 +94,9 @@ RedistributionWork<Dim>::RedistributionWork(const Domain<Dim>& domain, const std
     assemble_laplacian(
         grid,
         [&](int d, int s) {
-          // H vanishes on an open side, whatever the velocity does there.
+          // H vanishes on an open side and has no slope on an inflow side, whatever the velocity does there.
           const Side& side = domain.sides.at(d, s);
-          return is_open(side) ? potential_rule(side) : inviscid_velocity_rule(side, d == e);
+          return is_passable(side) ? potential_rule(side) : inviscid_velocity_rule(side, d == e);
         },
         matrix);
     if (e == 0 && grid.axisymmetric()) {

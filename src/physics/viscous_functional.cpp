@@ -206,7 +206,7 @@ void update_plastic_stress(const Domain<Dim>& domain, const CellVectors<Dim>& u,
     double corner[corner_count<Dim>][Dim];
     double change[corner_count<Dim>][Dim];
     gather(e, u, corner);
-    gather(e, update, change);
+    gather_change(e, update, change);
     for (int q = 0; q < point_count<Dim>; ++q) {
       StrainRate<Dim>& stress = work.stress[n].at[q];
       if (!(e.weight(q) > 0)) continue;

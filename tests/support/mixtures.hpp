@@ -24,7 +24,7 @@ struct Mixture {
         liquid(d.layout()) {}
 
   void update() {
-    for (CellField& phi_i : phi) fill_fraction_ghosts(domain.grid, domain.sides, phi_i);
+    for (std::size_t i = 0; i < phi.size(); ++i) fill_fraction_ghosts(domain.grid, domain.sides, i, phi[i]);
     sum_fractions(domain.grid, phi, total);
     mix_density(domain.grid, species, phi, rho);
     mark_liquid(domain.grid, total, 0.5, liquid);

@@ -13,8 +13,8 @@ using testing::uniform_axis;
 constexpr SideKind closed_kinds[] = {SideKind::axis, SideKind::symmetry, SideKind::free_slip, SideKind::no_slip};
 
 TEST(CoreBoundary, ClosedSidesMirrorFractionsAndOpenOnesHaveGasOutside) {
-  for (const SideKind kind : closed_kinds) EXPECT_EQ(fraction_rule({kind}).alpha, 1);
-  EXPECT_EQ(fraction_rule({SideKind::open}).alpha, 0);
+  for (const SideKind kind : closed_kinds) EXPECT_EQ(fraction_rule({kind}, 0).alpha, 1);
+  EXPECT_EQ(fraction_rule({SideKind::open}, 0).alpha, 0);
 }
 
 TEST(CoreBoundary, NothingCrossesClosedSides) {

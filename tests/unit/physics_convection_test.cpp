@@ -36,8 +36,8 @@ struct Convection {
   }
   void advance(double dt) {
     const Domain<Dim>& domain = mixture.domain;
-    fill_velocity_ghosts(domain.grid, domain.sides, u);
-    fill_velocity_ghosts(domain.grid, domain.sides, acceleration);
+    fill_velocity_ghosts(domain, u);
+    fill_acceleration_ghosts(domain.grid, domain.sides, acceleration);
     predict_velocities(domain, input(), dt, work, faces);
     MacProjectionWork<Dim> mac(domain.layout());
     project_face_velocities(domain, mixture.rho, mixture.liquid, {{.relative = 1e-12}, Method::automatic}, mac,

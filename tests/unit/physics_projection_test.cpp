@@ -22,8 +22,8 @@ template <int Dim>
 NodeField project(const Mixture<Dim>& mixture, double gas_pressure, CellVectors<Dim>& u) {
   ProjectionWork<Dim> work(mixture.domain.layout());
   NodeField pressure(mixture.domain.layout(), gas_pressure);
-  solve_pressure(mixture.domain, u, mixture.rho, mixture.liquid, NodeField(mixture.domain.layout(), gas_pressure), dt,
-                 sharp, work, pressure);
+  solve_pressure(mixture.domain, Projected::velocity, u, mixture.rho, mixture.liquid,
+                 NodeField(mixture.domain.layout(), gas_pressure), dt, sharp, work, pressure);
   add_pressure_gradient(mixture.domain, pressure, mixture.rho, mixture.liquid, -dt, u);
   return pressure;
 }

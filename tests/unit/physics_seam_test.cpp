@@ -88,8 +88,8 @@ void set_up(Step<Dim>& step) {
   step.mixture.update();
   step.u = testing::rough_vectors(grid, 4);
   step.acceleration = testing::rough_vectors(grid, 11);
-  fill_velocity_ghosts(grid, step.domain.sides, step.u);
-  fill_velocity_ghosts(grid, step.domain.sides, step.acceleration);
+  fill_velocity_ghosts(step.domain, step.u);
+  fill_acceleration_ghosts(grid, step.domain.sides, step.acceleration);
 }
 
 template <int Dim>
