@@ -1,0 +1,88 @@
+// Steady flow through a circular tube, report (37)-(41), Fig. 2-4 and Table 1: R = 4, (P_L - P_0) / (2 L) = 1.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "support/grids.hpp"
+#include "support/viscometric.hpp"
+
+namespace quicksand {
+namespace {
+
+using testing::StressLaw;
+
+constexpr double radius = 4;
+constexpr double yield_radius = 2;
+
+/// The shipped case with n cells across the radius.
+Flow<2> tube(const std::string& name, int n) {
+  CaseConfig config = testing::shipped_case("tube/" + name);
+  config.grid.x.front().cells = n;
+  return testing::steady_flow<2>(config);
+}
+
+/// Largest error at the cells' centres relative to the largest exact velocity, in per cent.
+double largest_error(const Flow<2>& flow, const StressLaw& law) {
+  const Grid<2>& grid = flow.domain().grid;
+  const double largest = testing::driven_velocity(law, 1, radius, yield_radius, 0);
+  double error = 0;
+  for (int i = 0; i < grid.owned_cells()[0]; ++i) {
+    const double exact = testing::driven_velocity(law, 1, radius, yield_radius, grid.centre_position(0, i));
+    for (int j = 0; j < grid.owned_cells()[1]; ++j) {
+      error = std::max(error, std::abs(flow.state().u[1][grid.cell({i, j})] - exact));
+    }
+  }
+  return 100 * error / largest;
+}
+
+TEST(Tube, ExactProfilesHaveTheKnownSpeeds) {
+  // Speeds on the axis and half way out for alpha = 0, 10, 100.
+  const auto speed = [](double alpha, double r) {
+    return testing::driven_velocity(testing::papanastasiou_law(1, 2, alpha), 1, radius, yield_radius, r);
+  };
+  EXPECT_NEAR(speed(0, 0), 8, 1e-9);
+  EXPECT_NEAR(speed(10, 0), 2.2, 1e-6);
+  EXPECT_NEAR(speed(10, 2), 2.04636023, 1e-6);
+  EXPECT_NEAR(speed(100, 0), 2.02, 1e-5);
+  EXPECT_NEAR(speed(100, 2), 2.00116512, 1e-6);
+}
+
+TEST(Tube, NewtonianFlowIsExact) {
+  // Report's Table 1: 0.106, 0.0127, 0.00163, 0.00025 %. What is left here is how far from steady the flow still is.
+  for (const int n : {4, 8, 16, 32}) {
+    EXPECT_LE(largest_error(tube("tube_newtonian", n), testing::papanastasiou_law(1, 0, 0)), 1e-5) << n;
+  }
+}
+
+TEST(Tube, YieldStressFlowConverges) {
+  // Report's Table 1: 36.26, 13.72, 5.09, 1.76 %.
+  const StressLaw law = testing::papanastasiou_law(1, 2, 100);
+  const double bound[] = {5, 1, 0.2, 0.025};
+  double coarser = 0;
+  for (int k = 0; k < 4; ++k) {
+    const double error = largest_error(tube("tube_bingham", 4 << k), law);
+    EXPECT_LE(error, bound[k]) << (4 << k);
+    if (k > 0) {
+      EXPECT_GE(std::log2(coarser / error), 2) << coarser << " " << error;
+    }
+    coarser = error;
+  }
+}
+
+TEST(Tube, FlowIsTheSameAllAlong) {
+  const Flow<2> flow = tube("tube_bingham", 8);
+  const Grid<2>& grid = flow.domain().grid;
+  for (int i = 0; i < 8; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      const Cell c = grid.cell({i, j});
+      EXPECT_NEAR(flow.state().u[1][c], flow.state().u[1][grid.cell({i, 0})], 1e-12);
+      EXPECT_NEAR(flow.state().u[0][c], 0, 1e-12);
+      EXPECT_NEAR(flow.total()[c], 1, 1e-12);
+    }
+  }
+  // What came in has left.
+  EXPECT_NEAR(flow.escaped()[0], 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace quicksand
