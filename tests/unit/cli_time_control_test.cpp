@@ -127,5 +127,36 @@ TEST(TimeControl, StepsThatAreTooShortAreRefused) {
   EXPECT_THROW(TimeControl(fixed_steps(1, 1e-20), {}).next_step(0.5, 1e-20, 1), NumericalError);
 }
 
+TEST(SteadyState, IsReachedByWhatDecays) {
+  // |u| = 1 - exp(-t): time |du/dt| / |u| falls below 1e-3 at t = 9.1.
+  SteadyState steady(1e-3);
+  double time = 0;
+  StepReport report;
+  do {
+    time += 0.1;
+    report.momentum_norm = 1 - std::exp(-time);
+    report.momentum_change = std::exp(-time);
+  } while (!steady.reached(report, time) && time < 100);
+  EXPECT_NEAR(time, 9.1, 0.1);
+}
+
+TEST(SteadyState, IsNotReachedByWhatGrows) {
+  SteadyState steady(1e-2);
+  StepReport report;
+  for (double time = 0.1; time < 1e6; time *= 1.1) {
+    report.momentum_norm = std::sqrt(time);
+    report.momentum_change = 0.5 / std::sqrt(time);
+    EXPECT_FALSE(steady.reached(report, time));
+  }
+  EXPECT_NEAR(steady.unsteadiness(), 0.5, 1e-12);
+}
+
+TEST(SteadyState, RestIsSteadyAndWithoutToleranceNothingIs) {
+  SteadyState steady(1e-2);
+  EXPECT_TRUE(steady.reached(StepReport{}, 1));
+  SteadyState endless(std::nullopt);
+  EXPECT_FALSE(endless.reached(StepReport{}, 1));
+}
+
 }  // namespace
 }  // namespace quicksand

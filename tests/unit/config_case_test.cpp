@@ -62,6 +62,8 @@ TEST(ConfigCase, ShownCaseReadsBackToTheSame) {
       {"initial.0.shape={polygon: {points: [[0, 0], [0.1, 0], [0.2, 0.7], [0, 0.9]]}}"},
       {"initial.0.shape={half_space: {point: [0, 0, 0.3], normal: [0.1, 0, 1]}}"},
       {"species.1.rheology={law: inviscid}", "species.1.concentration={yield_exponent: 5}"},
+      {"boundaries.z_max={open: 2, outside: water}", "boundaries.x_max={no_slip: [0, 0.5]}", "time.until_steady=1e-4"},
+      {"boundaries.z_min={inflow: {velocity: [0, 1], fill: sand, profile: parabolic}}"},
       {"grid.x=[{from: 0, to: 0.3, cells: 30}, {to: 0.5, cells: 8, stretch: smooth}]"},
   };
   for (const auto& settings : variants) {

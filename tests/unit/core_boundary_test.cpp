@@ -94,5 +94,33 @@ TEST(CoreBoundary, AperturesAreFaceAreasWhereLiquidCanPass) {
   }
 }
 
+TEST(CoreBoundary, ASpeciesStandsOutside) {
+  for (const SideKind kind : {SideKind::open, SideKind::inflow}) {
+    Side side{kind};
+    side.outside = 1;
+    EXPECT_EQ(fraction_rule(side, 0).beta, 0);
+    EXPECT_EQ(fraction_rule(side, 1).beta, 1);
+    EXPECT_EQ(fraction_rule(side, 1).alpha, 0);
+  }
+}
+
+TEST(CoreBoundary, InflowBringsItsProfile) {
+  const Grid<2> grid = testing::planar_grid(8);
+  Sides<2> sides = testing::all_sides(grid, SideKind::no_slip);
+  sides.at(0, 0) = {SideKind::inflow, 0, 0, {{3, 0, 0}}, Profile::parabolic};
+  sides.at(1, 1).kind = SideKind::free_slip;
+  const Domain<2> domain(grid, sides);
+  CellVectors<2> u(domain.layout(), 7);
+  fill_velocity_ghosts(domain, u);
+  for (int j = 0; j < 8; ++j) {
+    const double z = (j + 0.5) / 8;
+    EXPECT_NEAR(u[0][grid.cell({-1, j})], 3 * (1 - (1 - z) * (1 - z)), 1e-14);
+    EXPECT_EQ(u[1][grid.cell({-2, j})], 0);
+    EXPECT_EQ(domain.beyond[grid.cell({-1, j})], Beyond::inflow);
+    EXPECT_EQ(domain.beyond[grid.cell({8, j})], Beyond::nothing);
+    EXPECT_GT(domain.aperture[0][low_face(grid.cell({0, j}))], 0);
+  }
+}
+
 }  // namespace
 }  // namespace quicksand
