@@ -38,7 +38,7 @@ double largest_error(const Flow<Dim>& flow, int component, Exact&& exact) {
 TEST(Channel, PressureDrivesAPlug) {
   const testing::StressLaw law = testing::papanastasiou_law(1, 0.5, 1000);
   double coarser = 0;
-  for (const int n : {16, 32, 64}) {
+  for (const int n : {16, 32}) {
     CaseConfig config = testing::shipped_case("channel/poiseuille");
     config.grid.z.front().cells = n;
     const Flow<2> flow = testing::steady_flow<2>(config);
