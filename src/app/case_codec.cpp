@@ -31,12 +31,13 @@ Codec<GridConfig> grid_codec() {
   });
 }
 
-/// A word for closed sides, `{open: PRESSURE}` for open ones.
+/// A word for closed and periodic sides, `{open: PRESSURE}` for open ones.
 Codec<Side> side_codec() {
   const auto word = choice<SideKind>({{"axis", SideKind::axis},
                                       {"symmetry", SideKind::symmetry},
                                       {"free_slip", SideKind::free_slip},
-                                      {"no_slip", SideKind::no_slip}});
+                                      {"no_slip", SideKind::no_slip},
+                                      {"periodic", SideKind::periodic}});
   const auto open = object<Side>({
       required("open", &Side::pressure, quantity(dim::pressure), "pressure of the gas outside"),
   });

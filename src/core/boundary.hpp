@@ -8,10 +8,12 @@
 
 #include "core/field.hpp"
 #include "core/grid.hpp"
+#include "core/periodic.hpp"
 
 namespace quicksand {
 
-enum class SideKind { axis, symmetry, free_slip, no_slip, open };
+/// A periodic side is where the domain goes on at the other end of the axis; ghost cells there are copies by no rule.
+enum class SideKind { axis, symmetry, free_slip, no_slip, open, periodic };
 
 /// One side of the domain as the user names it.
 struct Side {
@@ -26,6 +28,10 @@ struct Sides {
   const Side& at(int d, int s) const { return side[static_cast<std::size_t>(d)][static_cast<std::size_t>(s)]; }
   Side& at(int d, int s) { return side[static_cast<std::size_t>(d)][static_cast<std::size_t>(s)]; }
 };
+
+/// The axes with two periodic sides. \throws InputError where only one side of an axis is periodic
+template <int Dim>
+AxisFlags<Dim> periodic_axes(const Sides<Dim>& sides);
 
 /// ghost = alpha * mirror + beta
 struct GhostRule {
@@ -46,12 +52,13 @@ GhostRule viscous_velocity_rule(const Side& side, bool normal);
 /// Potentials whose gradient moves volume (H, MAC pressure increment): flux zero at closed sides, zero on open ones.
 GhostRule potential_rule(const Side& side);
 
-/// Fills the ghost cells beyond the domain's boundary, corners included; ghost cells at seams between grids are left
-/// alone. \param rule  callable (axis, side 0|1) -> GhostRule
+/// Fills the ghost cells beyond the domain's boundary and across the ends of periodic axes, corners included; ghost
+/// cells at seams between grids are left alone. \param rule  callable (axis, side 0|1) -> GhostRule
 template <int Dim, class Rule>
 void fill_ghosts(const Grid<Dim>& grid, CellField& field, Rule&& rule) {
   Box<Dim> done = grid.cells();
   for (int d = 0; d < Dim; ++d) {
+    if (grid.layout().periodic(d)) wrap_axis(grid.layout(), done, d, ghosts, field);
     for (int s = 0; s < 2; ++s) {
       if (!grid.at_boundary(d, s)) continue;
       const GhostRule r = rule(d, s);

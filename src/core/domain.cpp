@@ -3,7 +3,8 @@
 namespace quicksand {
 
 template <int Dim>
-Domain<Dim>::Domain(Grid<Dim> g, const Sides<Dim>& s) : grid(std::move(g)), sides(s), aperture(grid.layout()) {
+Domain<Dim>::Domain(const Grid<Dim>& g, const Sides<Dim>& s)
+    : grid(g.with_periodic(periodic_axes(s))), sides(s), aperture(grid.layout()) {
   for (int d = 0; d < Dim; ++d) {
     for_each<Face>(layout(), grow(grid.faces(d), 1), [&](Face f) { aperture[d][f] = grid.area(d, f); });
     for (int side = 0; side < 2; ++side) {

@@ -28,7 +28,7 @@ auto lower_part(const Grid<Dim>& grid) {
 }
 
 template <int Dim, class At>
-double true_residual(const StencilMatrix<Dim, At>& matrix, const Field<At>& b, const Field<At>& x) {
+double true_residual(const StencilMatrix<Dim, At>& matrix, const Field<At>& b, Field<At>& x) {
   Field<At> r(matrix.layout);
   matrix.residual(b, x, r);
   return std::sqrt(dot<At>(matrix.layout, matrix.box, r, r) / dot<At>(matrix.layout, matrix.box, b, b));
