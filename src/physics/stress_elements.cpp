@@ -34,11 +34,12 @@ Rheology mix(const DualElement<Dim>& e, const std::vector<Species>& species, con
 template <int Dim, class Body>
 void for_each_neighbour(const Grid<Dim>& grid, const Index<Dim>& i, Body&& body) {
   constexpr int block = Dim == 2 ? 9 : 27;
+  const Box<Dim> nodes = grid.nodes();
   for (int k = 0; k < block; ++k) {
     Index<Dim> j = i;
     for (int d = 0, rest = k; d < Dim; ++d, rest /= 3) j[d] += rest % 3 - 1;
     j = grid.layout().image(j);
-    if (grid.nodes().contains(j) && !(j == i)) body(low_node(grid.cell(j)));
+    if (nodes.contains(j) && !(j == i)) body(low_node(grid.cell(j)));
   }
 }
 

@@ -93,6 +93,18 @@ TEST(Periodic, AFlowShiftsWithItsStartInThePlane) {
   }
 }
 
+TEST(Periodic, AFlowShiftsWithItsStartWhereMultigridSolves) {
+  const auto pool = [](int cells, const std::string& law) {
+    return liquid_case("dimension: 2, x: " + axis(2, cells) + ", z: " + axis(1.25, 40),
+                       "x_min: periodic, x_max: periodic, z_min: no_slip, z_max: {open: 1.0}", law, "[0.2, 0, -1]",
+                       "{fill: mud, shape: {box: {from: [0, 0, 0], to: [2, 0, 0.8]}}}, "
+                       "{fill: mud, shape: {box: {from: [1.2, 0, 0.9], to: [1.8, 0, 1.1]}}, velocity: [1, 0, -1]}");
+  };
+  expect_shifts_with_its_start<2>(pool(64, inviscid), {{23, 0}}, 10);
+  expect_shifts_with_its_start<2>(pool(64, mud), {{23, 0}}, 4);
+  expect_shifts_with_its_start<2>(pool(67, inviscid), {{23, 0}}, 4);
+}
+
 TEST(Periodic, AFlowShiftsWithItsStartAlongATube) {
   for (const std::string& law : {inviscid, mud}) {
     const CaseConfig drop =
@@ -191,6 +203,44 @@ TEST(Periodic, ABoxFullOfLiquidHasNoPressureLevelOfItsOwn) {
     EXPECT_NEAR(testing::largest_difference(flow.domain().grid, flow.total(), CellField(flow.domain().layout(), 1.0)),
                 0, 1e-9);
   }
+}
+
+/// Strain rate s at which the Papanastasiou law has the given stress, by bisection.
+double strain_rate_at(const Papanastasiou& law, double stress) {
+  double low = 0;
+  double high = stress / law.viscosity;
+  for (int k = 0; k < 60; ++k) {
+    const double s = (low + high) / 2;
+    const double reached = law.viscosity * s + law.yield_stress * -std::expm1(-law.regularization * s);
+    (reached < stress ? low : high) = s;
+  }
+  return low;
+}
+
+TEST(Periodic, MudRunsDownASlopeAsAPlug) {
+  const CaseConfig config = testing::shipped_case("slope/mud");
+  Flow<2> flow = build_flow<2>(config);
+  testing::run(config, flow);
+  const Papanastasiou& law = std::get<Papanastasiou>(config.species[0].law);
+  const Grid<2>& grid = flow.domain().grid;
+  // u' = s(rho g sin (0.5 - z)) by the mid-point rule.
+  constexpr int parts = 100;
+  double exact = 0;
+  double error = 0;
+  for (int j = 0; j < 16; ++j) {
+    const double h = grid.width_1d(1, j) / parts;
+    for (int k = 0; k < parts; ++k) {
+      const double depth = 0.5 - grid.face_position(1, j) - (k + 0.5) * h;
+      const double slope = h * strain_rate_at(law, config.gravity[0] * depth);
+      exact += slope;
+      if (k == parts / 2 - 1) {
+        for (int i = 0; i < 4; ++i) {
+          error = std::max(error, std::abs(flow.state().u[0][grid.cell({i, j})] - exact));
+        }
+      }
+    }
+  }
+  EXPECT_LE(error, 2e-4 * exact);
 }
 
 TEST(Periodic, GravityAlongAChannelDrivesTheParabola) {
