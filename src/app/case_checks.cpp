@@ -125,10 +125,15 @@ void check_boundaries(const CaseConfig& config, Reading& reading) {
     const std::string path = std::string("boundaries.") + name;
     if (side && !exists) reading.problem(path, "dimension: 2 has no y; its sides are x_min, x_max, z_min, z_max");
     if (!side && exists) {
-      reading.problem(
-          path, "is required but missing: one of axis, symmetry, free_slip, no_slip, {open: PRESSURE}, {inflow: ...}");
+      reading.problem(path,
+                      "is required but missing: one of axis, symmetry, free_slip, no_slip, periodic, {open: PRESSURE}, "
+                      "{inflow: ...}");
     }
     if (!side || !exists || !reading.clean(path) || !reading.clean("grid")) continue;
+    if (side->kind == SideKind::periodic && axisymmetric && name[0] == 'x') {
+      reading.problem(path, "must not be periodic: x is the radius of an axisymmetric grid");
+      continue;
+    }
     const bool is_axis = side->kind == SideKind::axis;
     if (is_axis && (!has_axis || path != "boundaries.x_min")) {
       reading.problem(
@@ -138,6 +143,24 @@ void check_boundaries(const CaseConfig& config, Reading& reading) {
       reading.problem(path, "must be axis: the axisymmetric grid begins at x = 0");
     }
     check_side(config, *side, path, across, ambient_known, reading);
+  }
+}
+
+/// Both sides of an axis are periodic, or none.
+void check_periodic(const Boundaries& b, Reading& reading) {
+  const struct {
+    const char* name;
+    const std::optional<SideConfig>&low, &high;
+  } axes[] = {{"x", b.x_min, b.x_max}, {"y", b.y_min, b.y_max}, {"z", b.z_min, b.z_max}};
+  for (const auto& [name, low, high] : axes) {
+    const std::string low_path = std::string("boundaries.") + name + "_min";
+    const std::string high_path = std::string("boundaries.") + name + "_max";
+    if (!low || !high || !reading.clean(low_path) || !reading.clean(high_path)) continue;
+    const bool low_periodic = low->kind == SideKind::periodic;
+    if (low_periodic == (high->kind == SideKind::periodic)) continue;
+    reading.problem(low_periodic ? high_path : low_path,
+                    std::string("must be periodic as ") + name + (low_periodic ? "_min" : "_max") +
+                        " is, or neither: the two sides of a periodic axis are one");
   }
 }
 
@@ -192,6 +215,7 @@ void check_output(const CaseConfig& config, Reading& reading) {
 void check_case(const CaseConfig& config, Reading& reading) {
   check_grid(config.grid, reading);
   check_boundaries(config, reading);
+  check_periodic(config.boundaries, reading);
   const bool axisymmetric = config.grid.geometry == Geometry::axisymmetric;
   if (axisymmetric && reading.clean("gravity") && (config.gravity[0] != 0 || config.gravity[1] != 0)) {
     reading.problem("gravity", "must point along z in axisymmetric cases");

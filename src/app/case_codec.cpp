@@ -48,7 +48,8 @@ Codec<SideConfig> side_codec() {
   const auto word = choice<SideKind>({{"axis", SideKind::axis},
                                       {"symmetry", SideKind::symmetry},
                                       {"free_slip", SideKind::free_slip},
-                                      {"no_slip", SideKind::no_slip}});
+                                      {"no_slip", SideKind::no_slip},
+                                      {"periodic", SideKind::periodic}});
   const struct {
     std::string key;
     SideKind kind;

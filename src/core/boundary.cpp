@@ -1,6 +1,25 @@
 #include "core/boundary.hpp"
 
+#include <string>
+
+#include "core/errors.hpp"
+
 namespace quicksand {
+
+template <int Dim>
+AxisFlags<Dim> periodic_axes(const Sides<Dim>& sides) {
+  AxisFlags<Dim> periodic;
+  for (int d = 0; d < Dim; ++d) {
+    periodic[d] = sides.at(d, 0).kind == SideKind::periodic;
+    if (periodic[d] != (sides.at(d, 1).kind == SideKind::periodic)) {
+      throw InputError("axis " + std::to_string(d) + " of the domain is periodic at one end only");
+    }
+  }
+  return periodic;
+}
+
+template AxisFlags<2> periodic_axes(const Sides<2>&);
+template AxisFlags<3> periodic_axes(const Sides<3>&);
 
 GhostRule fraction_rule(const Side& side, std::size_t species) {
   if (!is_passable(side)) return {1, 0};

@@ -9,10 +9,12 @@
 
 #include "core/field.hpp"
 #include "core/grid.hpp"
+#include "core/periodic.hpp"
 
 namespace quicksand {
 
-enum class SideKind { axis, symmetry, free_slip, no_slip, open, inflow };
+/// A periodic side is where the domain goes on at the other end of the axis; ghost cells there are copies by no rule.
+enum class SideKind { axis, symmetry, free_slip, no_slip, open, inflow, periodic };
 
 /// How the velocity of an inflow side varies across it.
 enum class Profile {
@@ -37,6 +39,10 @@ struct Sides {
   Side& at(int d, int s) { return side[static_cast<std::size_t>(d)][static_cast<std::size_t>(s)]; }
 };
 
+/// The axes with two periodic sides. \throws InputError where only one side of an axis is periodic
+template <int Dim>
+AxisFlags<Dim> periodic_axes(const Sides<Dim>& sides);
+
 /// ghost = alpha * mirror + beta
 struct GhostRule {
   double alpha;
@@ -58,12 +64,13 @@ GhostRule viscous_velocity_rule(const Side& side, bool normal);
 /// Potentials whose gradient moves volume (H, MAC pressure increment): flux zero at closed sides, zero on open ones.
 GhostRule potential_rule(const Side& side);
 
-/// Fills the ghost cells beyond the domain's boundary, corners included; ghost cells at seams between grids are left
-/// alone. \param rule  callable (axis, side 0|1) -> GhostRule
+/// Fills the ghost cells beyond the domain's boundary and across the ends of periodic axes, corners included; ghost
+/// cells at seams between grids are left alone. \param rule  callable (axis, side 0|1) -> GhostRule
 template <int Dim, class Rule>
 void fill_ghosts(const Grid<Dim>& grid, CellField& field, Rule&& rule) {
   Box<Dim> done = grid.cells();
   for (int d = 0; d < Dim; ++d) {
+    if (grid.layout().periodic(d)) wrap_axis(grid.layout(), done, d, ghosts, field);
     for (int s = 0; s < 2; ++s) {
       if (!grid.at_boundary(d, s)) continue;
       const GhostRule r = rule(d, s);

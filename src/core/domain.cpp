@@ -66,9 +66,8 @@ Vec<Dim> SideVelocities<Dim>::at(int d, int s, const Vec<Dim>& x) const {
 }
 
 template <int Dim>
-Domain<Dim>::Domain(Grid<Dim> g, const Sides<Dim>& s)
-
-    : grid(std::move(g)),
+Domain<Dim>::Domain(const Grid<Dim>& g, const Sides<Dim>& s)
+    : grid(g.with_periodic(periodic_axes(s))),
       sides(s),
       aperture(grid.layout()),
       beyond(grid.layout(), Beyond::nothing),

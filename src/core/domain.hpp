@@ -37,7 +37,9 @@ struct Domain {
   Field<Cell, Beyond> beyond;  ///< both ghost layers included
   SideVelocities<Dim> side_velocities;
 
-  Domain(Grid<Dim> g, const Sides<Dim>& s);
+  /// The grid becomes periodic where the sides are.
+  /// \throws InputError where one side of an axis is periodic and the other is not, or the radius is
+  Domain(const Grid<Dim>& g, const Sides<Dim>& s);
 
   const Layout<Dim>& layout() const { return grid.layout(); }
   /// Layer of faces on side s of axis d (empty where the owned box does not reach the domain's boundary).

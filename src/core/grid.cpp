@@ -43,16 +43,22 @@ LineElement integrate(double a, double b, double w0, double w1) {
 }  // namespace
 
 template <int Dim>
-Grid<Dim>::Grid(std::array<std::vector<double>, Dim> faces, Geometry geometry, const Box<Dim>& owned)
-    : global_faces_(std::move(faces)), geometry_(geometry), owned_global_(owned) {
+Grid<Dim>::Grid(std::array<std::vector<double>, Dim> faces, Geometry geometry, const Box<Dim>& owned,
+                const AxisFlags<Dim>& periodic)
+    : global_faces_(std::move(faces)), geometry_(geometry), periodic_(periodic), owned_global_(owned) {
   for (int d = 0; d < Dim; ++d) check_axis(global_faces_[at(d)], d);
   global_cells_ = count_cells<Dim>(global_faces_);
   if (axisymmetric() && global_faces_[0].front() < 0) {
     throw InputError("an axisymmetric grid can't begin at a negative radius");
   }
+  if (axisymmetric() && periodic_[0]) throw InputError("the radius of an axisymmetric grid can't be periodic");
   Index<Dim> n;
-  for (int d = 0; d < Dim; ++d) n[d] = owned.extent(d);
-  layout_ = Layout<Dim>(n);
+  AxisFlags<Dim> closed;
+  for (int d = 0; d < Dim; ++d) {
+    n[d] = owned.extent(d);
+    closed[d] = periodic_[d] && n[d] == global_cells_[d];
+  }
+  layout_ = Layout<Dim>(n, closed);
   for (int d = 0; d < Dim; ++d) store_axis(d);
   store_metrics();
 }
@@ -62,14 +68,24 @@ Grid<Dim>::Grid(std::array<std::vector<double>, Dim> faces, Geometry geometry)
     : Grid(faces, geometry, Box<Dim>{Index<Dim>{}, count_cells<Dim>(faces)}) {}
 
 template <int Dim>
+Grid<Dim> Grid<Dim>::with_periodic(const AxisFlags<Dim>& periodic) const {
+  return Grid(global_faces_, geometry_, owned_global_, periodic);
+}
+
+template <int Dim>
 void Grid<Dim>::store_axis(int d) {
   const std::vector<double>& global = global_faces_[at(d)];
   const int n_global = global_cells_[d];
-  // Global face coordinate, mirrored about the domain's ends.
+  const double length = global.back() - global.front();
+  // Global face coordinate, repeated or mirrored about the domain's ends.
   const auto position = [&](int i) {
+    if (periodic_[d]) {
+      const int inside = (i % n_global + n_global) % n_global;
+      return global[at(inside)] + (i - inside) / n_global * length;
+    }
     // An axis of one cell has no second width to mirror and repeats its only one.
-    if (i < -n_global) return global.front() - (global.back() - global.front()) * -i / n_global;
-    if (i > 2 * n_global) return global.back() + (global.back() - global.front()) * (i - n_global) / n_global;
+    if (i < -n_global) return global.front() - length * -i / n_global;
+    if (i > 2 * n_global) return global.back() + length * (i - n_global) / n_global;
     if (i < 0) return 2 * global.front() - global[at(-i)];
     if (i > n_global) return 2 * global.back() - global[at(2 * n_global - i)];
     return global[at(i)];
@@ -85,7 +101,9 @@ void Grid<Dim>::store_axis(int d) {
     axis.width.push_back(b - a);
     axis.element.push_back(integrate(a, b, radial ? 0.0 : 1.0, radial ? 1.0 : 0.0));
   }
-  double narrowest = global.back() - global.front();
+  // Copies must not differ by round-off: what leaves at one end of the axis enters at the other.
+  for (int i = 0; i < n; ++i) axis.width[at(i)] = axis.width[at(layout_.image(d, i - ghosts) + ghosts)];
+  double narrowest = length;
   for (int i = 0; i < n_global; ++i) narrowest = std::min(narrowest, global[at(i + 1)] - global[at(i)]);
   smallest_width_ = d == 0 ? narrowest : std::min(smallest_width_, narrowest);
 }
@@ -116,7 +134,9 @@ void Grid<Dim>::store_metrics() {
 template <int Dim>
 Box<Dim> Grid<Dim>::nodes() const {
   Box<Dim> box = cells();
-  for (int d = 0; d < Dim; ++d) ++box.hi[d];
+  for (int d = 0; d < Dim; ++d) {
+    if (!layout_.periodic(d)) ++box.hi[d];
+  }
   return box;
 }
 

@@ -23,17 +23,22 @@ struct LineElement {
 /// Grid of `Dim` rectilinear axes. The last axis is vertical. Lengths in the unit of the case.
 ///
 /// A grid owns a box of the cells of the global axes. Fields hold the owned cells and `ghosts` layers around them;
-/// ghost cells beyond the domain mirror the widths of the cells inside. For axisymmetric grids axis 0 is the radius and
-/// all volumes and areas are per radian, so that r enters here and in the hoop strain only.
+/// ghost cells beyond the domain mirror the widths of the cells inside, or repeat them where the axis is periodic. For
+/// axisymmetric grids axis 0 is the radius and all volumes and areas are per radian, so that r enters here and in the
+/// hoop strain only.
 template <int Dim>
 class Grid {
  public:
-  /// \param faces  increasing face coordinates of the global axes, at least two each
-  /// \param owned  owned cells as a box of global cell numbers
-  /// \throws InputError where an axis does not increase or an axisymmetric grid begins at r < 0
-  Grid(std::array<std::vector<double>, Dim> faces, Geometry geometry, const Box<Dim>& owned);
-  /// Grid that owns all cells of its axes.
+  /// \param faces     increasing face coordinates of the global axes, at least two each
+  /// \param owned     owned cells as a box of global cell numbers
+  /// \param periodic  axes that go on at their low end where they reach the high one
+  /// \throws InputError where an axis does not increase, an axisymmetric grid begins at r < 0 or the radius is periodic
+  Grid(std::array<std::vector<double>, Dim> faces, Geometry geometry, const Box<Dim>& owned,
+       const AxisFlags<Dim>& periodic = {});
+  /// Grid that owns all cells of its axes, none of them periodic.
   Grid(std::array<std::vector<double>, Dim> faces, Geometry geometry);
+  /// The same grid with these axes periodic and no others.
+  Grid with_periodic(const AxisFlags<Dim>& periodic) const;
 
   Geometry geometry() const { return geometry_; }
   bool axisymmetric() const { return geometry_ == Geometry::axisymmetric; }
@@ -43,14 +48,18 @@ class Grid {
   /// Cells of the whole domain, of which this grid owns owned_global().
   const Index<Dim>& global_cells() const { return global_cells_; }
   const Box<Dim>& owned_global() const { return owned_global_; }
-  /// Whether the owned box ends at the domain's low (side 0) or high (side 1) boundary along d.
+  const AxisFlags<Dim>& periodic() const { return periodic_; }
+  /// Whether the owned box ends at the domain's low (side 0) or high (side 1) boundary along d. A periodic axis has
+  /// none.
   bool at_boundary(int d, int side) const {
+    if (periodic_[d]) return false;
     return side == 0 ? owned_global_.lo[d] == 0 : owned_global_.hi[d] == global_cells_[d];
   }
 
   Box<Dim> cells() const { return {Index<Dim>{}, layout_.cells()}; }  ///< owned cells
   Box<Dim> faces(int d) const { return extend_high(cells(), d); }     ///< faces of owned cells along d
-  Box<Dim> nodes() const;                                             ///< nodes of owned cells
+  /// Nodes of owned cells, each once: on a periodic axis that is owned as a whole the last one is the first again.
+  Box<Dim> nodes() const;
   /// Cell multi-index (owned cells start at 0) to flat index.
   Cell cell(const Index<Dim>& i) const { return {layout_.flat(i)}; }
 
@@ -81,6 +90,7 @@ class Grid {
 
   std::array<std::vector<double>, Dim> global_faces_;
   Geometry geometry_;
+  AxisFlags<Dim> periodic_;
   Index<Dim> global_cells_;
   Box<Dim> owned_global_;
   Layout<Dim> layout_;

@@ -52,6 +52,15 @@ struct Vec {
   friend constexpr bool operator==(const Vec&, const Vec&) = default;
 };
 
+/// One flag per axis.
+template <int Dim>
+struct AxisFlags {
+  bool v[Dim] = {};
+  constexpr bool& operator[](int d) { return v[d]; }
+  constexpr bool operator[](int d) const { return v[d]; }
+  friend constexpr bool operator==(const AxisFlags&, const AxisFlags&) = default;
+};
+
 /// Half-open box of multi-indices, lo <= i < hi.
 template <int Dim>
 struct Box {

@@ -68,18 +68,22 @@ void for_each_indexed(const Layout<Dim>& layout, const Box<Dim>& box, Body&& bod
   }
 }
 
-/// Like for_each_indexed, in 2^Dim passes such that a pass visits every second point along each axis: a body may also
-/// write to points that neighbours of the same pass do not touch (scatter from an element to its corners). The order of
+/// Like for_each_indexed, in passes such that a pass visits every second point along each axis: a body may also write
+/// to points that neighbours of the same pass do not touch (scatter from an element to its corners). The order of
 /// additions to a point is the same for any number of threads.
 template <class At, int Dim, class Body>
 void for_each_coloured(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
-  for (int colour = 0; colour < (1 << Dim); ++colour) {
+  constexpr int passes = Dim == 2 ? 9 : 27;
+  for (int pass = 0; pass < passes; ++pass) {
     Index<Dim> first = box.lo;
     std::ptrdiff_t count = 1;
     Index<Dim> n;
-    for (int d = 0; d < Dim; ++d) {
-      first[d] += (colour >> d) & 1;
-      n[d] = first[d] < box.hi[d] ? (box.hi[d] - first[d] + 1) / 2 : 0;
+    for (int d = 0, rest = pass; d < Dim; ++d, rest /= 3) {
+      // Even points, odd points and, where the ends of an odd number of points meet, the last one by itself.
+      const int colour = rest % 3;
+      const int apart = layout.wraps(box, d) ? box.extent(d) % 2 : 0;
+      first[d] = colour < 2 ? box.lo[d] + colour : box.hi[d] - apart;
+      n[d] = colour < 2 ? std::max(box.hi[d] - apart - first[d] + 1, 0) / 2 : apart;
       if (d > 0) count *= n[d];
     }
     if (n[0] == 0) continue;

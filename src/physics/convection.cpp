@@ -148,6 +148,7 @@ void limit_outflow(const Domain<Dim>& domain, const CellField& phi, double dt, C
     const double held = std::max(phi[c], 0.0) * grid.volume(c);
     scale[c] = out * dt > held ? held / (out * dt) : 1.0;
   });
+  wrap(domain.layout(), grid.cells(), scale);
   for (int d = 0; d < Dim; ++d) {
     for_each<Face>(domain.layout(), grid.faces(d), [&](Face f) {
       const Cell high = high_cell(f);

@@ -13,9 +13,10 @@ DualMesh<Dim>::DualMesh(const Domain<Dim>& domain)
     step_[d] = grid.step(d);
     const int n = cells_[d];
     Axis& axis = axes_[static_cast<std::size_t>(d)];
-    axis.position.push_back(grid.face_position(d, 0));
+    periodic_[d] = grid.layout().periodic(d);
+    axis.position.push_back(periodic_[d] ? grid.centre_position(d, -1) : grid.face_position(d, 0));
     for (int i = 0; i < n; ++i) axis.position.push_back(grid.centre_position(d, i));
-    axis.position.push_back(grid.face_position(d, n));
+    axis.position.push_back(periodic_[d] ? grid.centre_position(d, n) : grid.face_position(d, n));
     for (std::size_t i = 0; i + 1 < axis.position.size(); ++i) {
       axis.width.push_back(axis.position[i + 1] - axis.position[i]);
     }

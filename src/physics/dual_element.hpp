@@ -94,7 +94,7 @@ class DualMesh {
  public:
   explicit DualMesh(const Domain<Dim>& domain);
 
-  /// The element around node n with multi-index i, 0 <= i <= number of cells along each axis.
+  /// The element around node n of the grid's nodes() with multi-index i.
   DualElement<Dim> element(Node n, const Index<Dim>& i) const {
     DualElement<Dim> e;
     e.measure = 1;
@@ -112,10 +112,10 @@ class DualMesh {
       for (int c = 0; c < Dim; ++c) e.factor[k][c] = 1;
       for (int d = 0, power = 1; d < Dim; ++d, power *= 3) {
         const bool high = (k >> d) & 1;
-        const bool outside_low = !high && i[d] == 0;
+        const bool outside_low = !high && i[d] == 0 && !periodic_[d];
         const bool outside_high = high && i[d] == cells_[d];
         if (outside_high || (!high && !outside_low)) {
-          e.corner[k] = e.corner[k] - step_[d];
+          e.corner[k] = e.corner[k] + (i[d] == 0 ? cells_[d] - 1 : -1) * step_[d];
         } else {
           e.place[k] += power;
         }
@@ -133,11 +133,14 @@ class DualMesh {
   void set_wall_velocities(const Index<Dim>& i, DualElement<Dim>& e) const;
 
   struct Axis {
-    std::vector<double> position;  ///< low boundary point, centres, high boundary point
-    std::vector<double> width;     ///< of the intervals between positions
+    /// Low boundary point, centres, high boundary point; on a periodic axis the centres of the last cell, of all cells
+    /// and of the first one again.
+    std::vector<double> position;
+    std::vector<double> width;  ///< of the intervals between positions
   };
   std::array<Axis, static_cast<std::size_t>(Dim)> axes_;
   Index<Dim> cells_;
+  AxisFlags<Dim> periodic_;
   Step step_[Dim];
   double wall_factor_[Dim][2][Dim];  ///< [axis][side][component]
   bool axisymmetric_;

@@ -32,6 +32,7 @@ void assemble(const Domain<Dim>& domain, const CellField& rho, const CellMask& l
     }
     matrix.diagonal[c] = liquid[c] && diagonal > 0 ? diagonal : 1.0;
   });
+  matrix.wrap_couplings();
 }
 
 }  // namespace
@@ -55,6 +56,7 @@ SolveReport project_face_velocities(const Domain<Dim>& domain, const CellField& 
   });
   const SolveReport report = solve(work.matrix, work.divergence, work.potential, options);
   require_converged(report, "MAC projection");
+  wrap(domain.layout(), grid.cells(), work.potential);
   for (int d = 0; d < Dim; ++d) {
     for_each<Face>(domain.layout(), grid.faces(d), [&](Face f) {
       const Cell high = high_cell(f);

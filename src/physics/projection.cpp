@@ -22,6 +22,12 @@ struct Corners {
     }
   }
   static constexpr int bit(int k, int d) { return (k >> d) & 1; }
+  /// Corner k of the cell with multi-index i, at the low end of a periodic axis that the cell ends.
+  static Node of_cell(const Layout<Dim>& layout, Cell c, const Index<Dim>& i, int k) {
+    Node n = low_node(c);
+    for (int d = 0; d < Dim; ++d) n = n + (layout.image(d, i[d] + bit(k, d)) - i[d]) * layout.step(d);
+    return n;
+  }
 };
 
 /// Element mean of dN_k/dx_d in a cell for all corners k.
@@ -97,27 +103,29 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
               double dt, const NodeField& increment, ProjectionWork<Dim>& work) {
   using C = Corners<Dim>;
   const Grid<Dim>& grid = domain.grid;
-  const C corners(domain.layout());
+  const Layout<Dim>& layout = domain.layout();
   const PairTable<Dim> pairs(work.matrix);
   const NodeMask& free = work.free;
-  for_each<Node>(domain.layout(), work.matrix.box, [&](Node n) {
+  // One layer more: couplings of rows around the box count in row sums.
+  for_each<Node>(layout, grow(work.matrix.box, 1), [&](Node n) {
     work.matrix.diagonal[n] = free[n] ? 0.0 : 1.0;
     for (auto& lower : work.matrix.lower) lower[n] = 0;
     work.rhs[n] = 0;
   });
   Box<Dim> cells = work.matrix.box;
   for (int d = 0; d < Dim; ++d) --cells.lo[d];
-  for_each_coloured<Cell>(domain.layout(), intersect(cells, grid.cells()), [&](Cell c, const Index<Dim>& i) {
+  for_each_coloured<Cell>(layout, intersect(cells, grid.cells()), [&](Cell c, const Index<Dim>& i) {
     if (!liquid[c]) return;
     const double scale = dt / rho[c];
-    const Node origin = low_node(c);
+    Node corner[C::count];
+    for (int k = 0; k < C::count; ++k) corner[k] = C::of_cell(layout, c, i, k);
     for (int a = 0; a < C::count; ++a) {
-      const Node na = origin + corners.step[a];
+      const Node na = corner[a];
       if (!free[na]) continue;
       double source = 0;
       for (int d = 0; d < Dim; ++d) source += grid.volume(c) * u[d][c] * mean_gradient(grid, i, a, d);
       for (int b = 0; b < C::count; ++b) {
-        const Node nb = origin + corners.step[b];
+        const Node nb = corner[b];
         const double k = scale * stiffness(grid, i, a, b);
         if (a == b) work.matrix.diagonal[na] += k;
         if (a > b && free[nb]) work.matrix.lower[pairs.offset[a][b]][na] += k;
@@ -126,6 +134,7 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
       work.rhs[na] += source;
     }
   });
+  work.matrix.wrap_couplings();
 }
 
 /// What comes in through inflow sides: -integral of N u . n over them, on the right-hand side.
@@ -133,7 +142,6 @@ template <int Dim>
 void add_inflow(const Domain<Dim>& domain, const CellMask& liquid, ProjectionWork<Dim>& work) {
   using C = Corners<Dim>;
   const Grid<Dim>& grid = domain.grid;
-  const C corners(domain.layout());
   for (int d = 0; d < Dim; ++d) {
     for (int s = 0; s < 2; ++s) {
       if (domain.sides.at(d, s).kind != SideKind::inflow) continue;
@@ -149,7 +157,7 @@ void add_inflow(const Domain<Dim>& domain, const CellMask& liquid, ProjectionWor
                                   for (int e = 0; e < Dim; ++e) {
                                     if (e != d) part *= grid.line_element(e, i[e]).fraction[C::bit(k, e)];
                                   }
-                                  const Node n = Node{f.n} + corners.step[k];
+                                  const Node n = C::of_cell(domain.layout(), high_cell(f), i, k);
                                   if (work.free[n]) work.rhs[n] += part;
                                 }
                               });
@@ -201,14 +209,17 @@ SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const Cell
     work.increment[n] = pressure[n] - reference;
   });
   work.matrix.box = bounding_box<Node>(domain.layout(), nodes, [&](Node n) { return work.free[n] != 0; });
-  if (work.matrix.box.empty()) return {.converged = true};
-  assemble(domain, u_bar_star, rho, liquid, dt, work.increment, work);
-  if (what == Projected::velocity) add_inflow(domain, liquid, work);
-  const SolveReport report = solve(work.matrix, work.rhs, work.increment, options);
-  require_converged(report, "pressure projection");
-  for_each<Node>(domain.layout(), work.matrix.box, [&](Node n) {
-    if (work.free[n]) pressure[n] = reference + work.increment[n];
-  });
+  SolveReport report{.converged = true};
+  if (!work.matrix.box.empty()) {
+    assemble(domain, u_bar_star, rho, liquid, dt, work.increment, work);
+    if (what == Projected::velocity) add_inflow(domain, liquid, work);
+    report = solve(work.matrix, work.rhs, work.increment, options);
+    require_converged(report, "pressure projection");
+    for_each<Node>(domain.layout(), work.matrix.box, [&](Node n) {
+      if (work.free[n]) pressure[n] = reference + work.increment[n];
+    });
+  }
+  wrap(domain.layout(), nodes, pressure);
   return report;
 }
 

@@ -23,7 +23,7 @@ void assemble_laplacian(const Grid<Dim>& grid, Rule&& rule, StencilMatrix<Dim, C
     for (int d = 0; d < Dim; ++d) {
       double below = coefficient(d, low_face(c));
       double above = coefficient(d, low_face(c + grid.step(d)));
-      matrix.lower[static_cast<std::size_t>(d)][c] = i[d] == 0 ? 0.0 : -below;
+      matrix.lower[static_cast<std::size_t>(d)][c] = i[d] == 0 && !layout.periodic(d) ? 0.0 : -below;
       // ghost = alpha * mirror: the difference across the side is (1 - alpha) * mirror.
       if (i[d] == 0 && grid.at_boundary(d, 0)) below *= 1 - rule(d, 0).alpha;
       if (i[d] == grid.owned_cells()[d] - 1 && grid.at_boundary(d, 1)) above *= 1 - rule(d, 1).alpha;
@@ -31,12 +31,13 @@ void assemble_laplacian(const Grid<Dim>& grid, Rule&& rule, StencilMatrix<Dim, C
     }
     matrix.diagonal[c] = diagonal;
   });
+  matrix.wrap_couplings();
 }
 
 /// phi -= A H / V; returns the volume that leaves through open sides.
 template <int Dim>
-double apply_potential(const Domain<Dim>& domain, const CellField& H, StencilMatrix<Dim, Cell>& laplacian,
-                       CellField& change, CellField& phi) {
+double apply_potential(const Domain<Dim>& domain, CellField& H, StencilMatrix<Dim, Cell>& laplacian, CellField& change,
+                       CellField& phi) {
   laplacian.apply(H, change);
   for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) { phi[c] -= change[c] / domain.grid.volume(c); });
   return sum<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) { return change[c]; });
@@ -56,11 +57,15 @@ double settle_negative(const Domain<Dim>& domain, CellField& phi) {
     for (int i = 0; i < rows.length; ++i) {
       const Cell c{rows.start(r) + i};
       if (phi[c] >= 0) continue;
-      const Index<Dim> index = domain.layout().multi(c.n);
       Cell donor = c;
       for (int d = 0; d < Dim; ++d) {
-        if (index[d] > 0 && phi[c - grid.step(d)] > phi[donor]) donor = c - grid.step(d);
-        if (index[d] + 1 < grid.owned_cells()[d] && phi[c + grid.step(d)] > phi[donor]) donor = c + grid.step(d);
+        for (const int side : {-1, 1}) {
+          Index<Dim> index = domain.layout().multi(c.n);
+          index[d] += side;
+          index = domain.layout().image(index);
+          const Cell neighbour = grid.cell(index);
+          if (grid.cells().contains(index) && phi[neighbour] > phi[donor]) donor = neighbour;
+        }
       }
       const double missing = -phi[c] * grid.volume(c);
       const double given = std::min(missing, std::max(phi[donor], 0.0) * grid.volume(donor));
@@ -139,7 +144,8 @@ SolveReport redistribute_momentum(const Domain<Dim>& domain, const CellVectors<D
                                   CellVectors<Dim>& u_bar) {
   const Grid<Dim>& grid = domain.grid;
   const Layout<Dim>& layout = domain.layout();
-  const CellField& H = work.H;
+  CellField& H = work.H;
+  wrap(layout, grid.cells(), H);
   StencilMatrix<Dim, Cell>& system = work.system;
   system.box = bounding_box<Cell>(layout, grid.cells(), [&](Cell c) { return H[c] > 0; });
   SolveReport worst{.converged = true};
@@ -157,6 +163,7 @@ SolveReport redistribute_momentum(const Domain<Dim>& domain, const CellVectors<D
         work.rhs[c] = in ? grid.volume(c) * momentum_tilde[e][c] : 0.0;
         work.y[c] = in ? H[c] * momentum_tilde[e][c] / rho[c] : 0.0;
       });
+      system.wrap_couplings();
       const SolveReport report = solve(system, work.rhs, work.y, options);
       require_converged(report, "momentum redistribution");
       if (report.iterations > worst.iterations) worst = report;

@@ -29,21 +29,17 @@ Rheology mix(const DualElement<Dim>& e, const std::vector<Species>& species, con
   return mixed;
 }
 
-/// Calls body(neighbour) for the up to 3^Dim - 1 elements around node n that belong to the domain.
+/// Calls body(neighbour) for the up to 3^Dim - 1 elements around node i that belong to the domain, not counting the
+/// node itself where it is its own neighbour.
 template <int Dim, class Body>
-void for_each_neighbour(const Grid<Dim>& grid, Node n, const Index<Dim>& i, Body&& body) {
+void for_each_neighbour(const Grid<Dim>& grid, const Index<Dim>& i, Body&& body) {
   constexpr int block = Dim == 2 ? 9 : 27;
+  const Box<Dim> nodes = grid.nodes();
   for (int k = 0; k < block; ++k) {
-    Node m = n;
-    bool inside = true;
-    int rest = k;
-    for (int d = 0; d < Dim; ++d) {
-      const int shift = rest % 3 - 1;
-      rest /= 3;
-      inside = inside && i[d] + shift >= 0 && i[d] + shift <= grid.owned_cells()[d];
-      m = m + shift * grid.step(d);
-    }
-    if (inside && !(m == n)) body(m);
+    Index<Dim> j = i;
+    for (int d = 0, rest = k; d < Dim; ++d, rest /= 3) j[d] += rest % 3 - 1;
+    j = grid.layout().image(j);
+    if (nodes.contains(j) && !(j == i)) body(low_node(grid.cell(j)));
   }
 }
 
@@ -83,14 +79,15 @@ bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>&
     part[n] = 0;
     if (elements.active[n] || !(liquid[n] > 0)) return;
     int heirs = 0;
-    for_each_neighbour(grid, n, i, [&](Node m) { heirs += elements.active[m]; });
+    for_each_neighbour(grid, i, [&](Node m) { heirs += elements.active[m]; });
     if (heirs > 0) part[n] = liquid[n] / heirs;
   });
   for_each_indexed<Node>(layout, grid.nodes(), [&](Node n, const Index<Dim>& i) {
     if (!elements.active[n]) return;
-    for_each_neighbour(grid, n, i, [&](Node m) { liquid[n] += part[m]; });
+    for_each_neighbour(grid, i, [&](Node m) { liquid[n] += part[m]; });
     elements.share[n] = liquid[n] / elements.mesh.element(n, i).volume();
   });
+  wrap(layout, grid.nodes(), elements.active);
   return sum<Node>(layout, grid.nodes(), [&](Node n) { return elements.active[n] ? 1.0 : 0.0; }) > 0;
 }
 

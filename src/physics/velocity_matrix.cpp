@@ -33,11 +33,19 @@ void VelocityMatrix<Dim>::clear() {
 }
 
 template <int Dim>
-void VelocityMatrix<Dim>::apply(const CellVectors<Dim>& x, CellVectors<Dim>& y) const {
+void VelocityMatrix<Dim>::wrap_couplings() {
+  for (StencilMatrix<Dim, Cell>& m : diagonal_) m.wrap_couplings();
+  for (std::vector<CellField>& couplings : cross_lower_) {
+    for (CellField& coupling : couplings) wrap(diagonal_[0].layout, box(), coupling);
+  }
+}
+
+template <int Dim>
+void VelocityMatrix<Dim>::apply(CellVectors<Dim>& x, CellVectors<Dim>& y) const {
   const Layout<Dim>& layout = diagonal_[0].layout;
   const std::vector<Step>& steps = diagonal_[0].steps;
+  for (int a = 0; a < Dim; ++a) diagonal_[at(a)].apply(x[a], y[a]);
   for (int a = 0; a < Dim; ++a) {
-    diagonal_[at(a)].apply(x[a], y[a]);
     for (int b = 0; b < Dim; ++b) {
       if (a == b) continue;
       const CellField& here = centre(a, b);

@@ -37,8 +37,10 @@ class VelocityMatrix {
   }
   const std::vector<Index<Dim>>& offsets() const { return diagonal_[0].offsets; }
 
-  /// y = A x on the box; x counts as zero outside.
-  void apply(const CellVectors<Dim>& x, CellVectors<Dim>& y) const;
+  /// To be called when the couplings have been written: copies them across the ends of periodic axes.
+  void wrap_couplings();
+  /// y = A x on the box; x counts as zero outside. Where the box wraps, the layer around it is written to.
+  void apply(CellVectors<Dim>& x, CellVectors<Dim>& y) const;
 
  private:
   static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }

@@ -1,6 +1,7 @@
 #include "physics/velocity_solver.hpp"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <vector>
 
 #include "solvers/multigrid.hpp"
@@ -15,7 +16,7 @@ constexpr int max_iterations = 400;
 /// more.
 constexpr std::ptrdiff_t largest_direct = 1000;
 
-/// Numbers of the cells of a box, one after the other; -1 elsewhere.
+/// Numbers of the cells of a box, one after the other, and of their copies; -1 elsewhere.
 template <int Dim>
 Field<Cell, int> number_cells(const Layout<Dim>& layout, const Box<Dim>& box, std::vector<Cell>& cells) {
   Field<Cell, int> number(layout, -1);
@@ -27,6 +28,7 @@ Field<Cell, int> number_cells(const Layout<Dim>& layout, const Box<Dim>& box, st
       cells.push_back(c);
     }
   }
+  wrap(layout, box, number);
   return number;
 }
 
@@ -46,7 +48,10 @@ Eigen::SparseMatrix<double> sparse_lower(const VelocityMatrix<Dim>& matrix, cons
         if (neighbour < 0) continue;
         for (int b = 0; b < Dim; ++b) {
           const double value = matrix.lower(a, b, e)[c];
-          if (value != 0) entries.emplace_back(row, Dim * neighbour + b, value);
+          if (value == 0) continue;
+          // Across the ends of a periodic axis the lower neighbour has the higher number.
+          const int column = Dim * neighbour + b;
+          entries.emplace_back(std::max(row, column), std::min(row, column), value);
         }
       }
     }
@@ -90,7 +95,7 @@ SolveReport solve_velocity(const VelocityMatrix<Dim>& matrix, const CellVectors<
   const auto precondition = [&](const CellVectors<Dim>& r, CellVectors<Dim>& z) {
     for (int d = 0; d < Dim; ++d) cycles[static_cast<std::size_t>(d)].cycle(r[d], z[d]);
   };
-  const auto apply = [&](const CellVectors<Dim>& v, CellVectors<Dim>& y) { matrix.apply(v, y); };
+  const auto apply = [&](CellVectors<Dim>& v, CellVectors<Dim>& y) { matrix.apply(v, y); };
   return conjugate_gradients<Cell>(matrix.component(0).layout, matrix.box(), apply, precondition, b, x,
                                    {.relative = relative_tolerance, .max_iterations = max_iterations});
 }

@@ -75,6 +75,13 @@ void add_point(const PointShapes<Dim>& shapes, const StrainRate<Dim>& s, const S
   }
 }
 
+/// The elements that have a corner in a box of cells.
+template <int Dim>
+Box<Dim> elements_around(const Grid<Dim>& grid, Box<Dim> cells) {
+  for (int d = 0; d < Dim; ++d) ++cells.hi[d];
+  return intersect(cells, grid.nodes());
+}
+
 /// Number of the lower offset whose cells lie `place` (base 3) apart.
 template <int Dim>
 struct OffsetTable {
@@ -126,8 +133,7 @@ double evaluate_functional(const Domain<Dim>& domain, const CellVectors<Dim>& u_
     for_each<Cell>(layout, cells, [&](Cell c) { gradient[d][c] = work.mass[d][c] * (u[d][c] - u_hat[d][c]); });
     inertia += sum<Cell>(layout, cells, [&](Cell c) { return 0.5 * gradient[d][c] * (u[d][c] - u_hat[d][c]); });
   }
-  Box<Dim> elements = cells;
-  for (int d = 0; d < Dim; ++d) ++elements.hi[d];
+  const Box<Dim> elements = elements_around(domain.grid, cells);
   for_each_coloured<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
     work.potential[n] = 0;
     if (!work.elements.active[n]) return;
@@ -168,8 +174,7 @@ void assemble_matrix(const Domain<Dim>& domain, const CellVectors<Dim>& u, doubl
     // Cells without part get identity rows.
     for_each<Cell>(layout, matrix.box(), [&](Cell c) { diagonal[c] = mass[c] > 0 ? mass[c] : 1.0; });
   }
-  Box<Dim> elements = matrix.box();
-  for (int d = 0; d < Dim; ++d) ++elements.hi[d];
+  const Box<Dim> elements = elements_around(domain.grid, matrix.box());
   for_each_coloured<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
     if (!work.elements.active[n]) return;
     const DualElement<Dim> e = work.elements.mesh.element(n, index);
@@ -191,14 +196,14 @@ void assemble_matrix(const Domain<Dim>& domain, const CellVectors<Dim>& u, doubl
     }
     scatter(e, K, table, matrix);
   });
+  matrix.wrap_couplings();
 }
 
 template <int Dim>
 void update_plastic_stress(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellVectors<Dim>& update,
                            DiffusionWork<Dim>& work) {
   if (work.stress.size() == 0) return;
-  Box<Dim> elements = work.matrix.box();
-  for (int d = 0; d < Dim; ++d) ++elements.hi[d];
+  const Box<Dim> elements = elements_around(domain.grid, work.matrix.box());
   for_each_indexed<Node>(domain.layout(), elements, [&](Node n, const Index<Dim>& index) {
     if (!work.elements.active[n]) return;
     const DualElement<Dim> e = work.elements.mesh.element(n, index);

@@ -88,7 +88,7 @@ struct EuclideanNorm {
 ///
 /// \tparam At      Cell or Node
 /// \tparam Vector  Field<At> or Components<Dim, At>
-/// \param apply         apply(x, y): y = A x on the box
+/// \param apply         apply(x, y): y = A x on the box; may write to x around the box
 /// \param precondition  precondition(r, z): z ~ A^-1 r on the box, symmetric and positive definite
 /// \param b             right-hand side on the box
 /// \param x             guess on entry, the best solution found on return. Outside the box it is left alone; the

@@ -93,6 +93,15 @@ struct SeenAxes {
   }
 };
 
+/// Whether hypre's hierarchy can go round an axis of n points. It halves a period as long as that is even; PFMG then
+/// relaxes what is left, for which 31 points are few enough, and SMG fails on more than one. Without the couplings
+/// across the ends a cycle is still a preconditioner: some 55 iterations of CG on 96 x 96 points in place of 11.
+bool takes_period(MultigridKind kind, int n) {
+  int odd_part = n;
+  while (odd_part % 2 == 0) odd_part /= 2;
+  return n > 1 && odd_part <= (kind == MultigridKind::pfmg ? 31 : 1);
+}
+
 using HypreIndex = std::array<HYPRE_Int, 3>;
 
 }  // namespace
@@ -109,7 +118,11 @@ struct Multigrid<Dim, At>::Hierarchy {
         values_(static_cast<std::size_t>(box_.size())) {
     Session::ensure();
     HYPRE_ClearAllErrors();
-    for (std::size_t d = 0; d < axes_.count; ++d) high_[d] = box_.extent(axes_.axis[d]) - 1;
+    for (std::size_t d = 0; d < axes_.count; ++d) {
+      const int n = box_.extent(axes_.axis[d]);
+      high_[d] = n - 1;
+      period_[d] = matrix.wraps(axes_.axis[d]) && takes_period(kind, n) ? n : 0;
+    }
     try {
       create_grid();
       create_matrix(matrix);
@@ -141,6 +154,7 @@ struct Multigrid<Dim, At>::Hierarchy {
   void create_grid() {
     HYPRE_StructGridCreate(self_communicator, static_cast<HYPRE_Int>(axes_.count), &grid_);
     HYPRE_StructGridSetExtents(grid_, low_.data(), high_.data());
+    HYPRE_StructGridSetPeriodic(grid_, period_.data());
     HYPRE_StructGridAssemble(grid_);
     check_and_clear("grid_");
   }
@@ -179,14 +193,15 @@ struct Multigrid<Dim, At>::Hierarchy {
     check_and_clear("matrix");
   }
 
-  /// A coupling that leads out of the box_ must be zero, or the coarse matrices are wrong next to it.
+  /// A coupling that leads out of the box_ must be zero, or the coarse matrices are wrong next to it; where hypre knows
+  /// the axis as periodic it leads to the other end.
   void drop_couplings_out_of_the_box(const HypreIndex& offset) {
     std::size_t n = 0;
     const Index<Dim> extent = extents();
     for_each_packed([&](const Index<Dim>& i) {
       for (std::size_t d = 0; d < axes_.count; ++d) {
         const int to = i[axes_.axis[d]] + static_cast<int>(offset[d]);
-        if (to < 0 || to >= extent[axes_.axis[d]]) values_[n] = 0;
+        if (period_[d] == 0 && (to < 0 || to >= extent[axes_.axis[d]])) values_[n] = 0;
       }
       ++n;
     });
@@ -205,8 +220,8 @@ struct Multigrid<Dim, At>::Hierarchy {
   void create_solver(Stencil stencil_kind) {
     if (kind_ == MultigridKind::pfmg) {
       // Red-black relaxation keeps a star stencil_ on all levels; on box_ stencils hypre 2.26 writes beyond an array
-      // with it.
-      const HYPRE_Int relaxation = stencil_kind == Stencil::star ? 2 : 1;
+      // with it, and round the odd number of points of a coarse level colours do not alternate.
+      const HYPRE_Int relaxation = stencil_kind == Stencil::star && period_ == HypreIndex{} ? 2 : 1;
       HYPRE_StructPFMGCreate(self_communicator, &solver_);
       HYPRE_StructPFMGSetMaxIter(solver_, 1);
       HYPRE_StructPFMGSetTol(solver_, 0.0);
@@ -284,6 +299,7 @@ struct Multigrid<Dim, At>::Hierarchy {
   std::vector<double> values_;
   HypreIndex low_{};
   HypreIndex high_{};
+  HypreIndex period_{};  ///< number of points along an axis that wraps, 0 along others
   HYPRE_StructGrid grid_ = nullptr;
   HYPRE_StructStencil stencil_ = nullptr;
   HYPRE_StructMatrix operator_ = nullptr;

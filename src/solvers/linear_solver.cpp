@@ -92,7 +92,7 @@ template <int Dim, class At>
 SolveReport solve(const StencilMatrix<Dim, At>& matrix, Preconditioner<Dim, At>& preconditioner, const Field<At>& b,
                   Field<At>& x, const Tolerance& tolerance) {
   SolveReport report = conjugate_gradients<At>(
-      matrix.layout, matrix.box, [&](const Field<At>& v, Field<At>& Av) { matrix.apply(v, Av); }, preconditioner, b, x,
+      matrix.layout, matrix.box, [&](Field<At>& v, Field<At>& Av) { matrix.apply(v, Av); }, preconditioner, b, x,
       tolerance);
   report.method = name(preconditioner.method());
   return report;

@@ -54,7 +54,7 @@ class ObstacleSolver {
         sweep();
         sweep();
         // They may have wetted the border, whose neighbours then take part.
-        work_ = intersect(grow(work_, 1), matrix_.box);
+        work_ = with_neighbours(work_);
       }
       matrix_.residual(b_, potential_, r_, work_);
       report_.violation = largest_violation();
@@ -128,8 +128,16 @@ class ObstacleSolver {
   /// Finds the boxes of the set, all of which lies in `where`.
   void bound_set(const Box<Dim>& where) {
     box_ = bounding_box<Cell>(layout_, where, [&](Cell c) { return set_[c] == inside; });
-    work_ = intersect(grow(box_, 1), matrix_.box);
+    work_ = with_neighbours(box_);
     set_is_new_ = true;
+  }
+
+  Box<Dim> with_neighbours(const Box<Dim>& cells) const {
+    const Box<Dim> grown = grow(cells, 1);
+    Box<Dim> inside = intersect(grown, matrix_.box);
+    // What lies beyond one end of a periodic axis is at the other.
+    if (!(inside == grown)) inside = close_rings(layout_, inside, matrix_.box);
+    return inside;
   }
 
   std::ptrdiff_t count_positive() const {
@@ -153,8 +161,8 @@ class ObstacleSolver {
     });
     const Tolerance tolerance{reduction, residual_share * tolerance_, 100};
     const SolveReport linear = conjugate_gradients<Cell>(
-        layout_, box_, [&](const CellField& x, CellField& y) { reduced_.apply(x, y); }, *preconditioner_, work_vector_,
-        step_, tolerance,
+        layout_, box_, [&](CellField& x, CellField& y) { reduced_.apply(x, y); }, *preconditioner_, work_vector_, step_,
+        tolerance,
         [&](const CellField& x) {
           return maximum<Cell>(layout_, box_, 0, [&](Cell c) { return std::abs(x[c]) / volume_[c]; });
         });
@@ -171,10 +179,13 @@ class ObstacleSolver {
     for (int d = 0; d < Dim; ++d) {
       const CellField& all = matrix_.lower[static_cast<std::size_t>(d)];
       CellField& kept = reduced_.lower[static_cast<std::size_t>(d)];
-      const Step back = layout_.step(d);
-      for_each<Cell>(layout_, extend_high(box_, d),
-                     [&](Cell c) { kept[c] = in_system(c) && in_system(c - back) ? all[c] : 0; });
+      const Step along = layout_.step(d);
+      for_each_indexed<Cell>(layout_, extend_high(box_, d), [&](Cell c, const Index<Dim>& i) {
+        const Cell low = c + (layout_.image(d, i[d] - 1) - i[d]) * along;
+        kept[c] = in_system(c) && in_system(low) ? all[c] : 0;
+      });
     }
+    reduced_.wrap_couplings();
     // A fresh hierarchy for every set: with one of an older set CG takes several times the iterations.
     preconditioner_.emplace(reduced_, method_);
     set_is_new_ = false;
@@ -240,6 +251,7 @@ class ObstacleSolver {
 
   /// One projected Gauss-Seidel sweep: the exact minimum in every cell in turn.
   void sweep() {
+    wrap(layout_, matrix_.box, potential_);
     for_each_coloured<Cell>(layout_, work_, [&](Cell c, const Index<Dim>&) {
       double excess = b_[c];
       for (std::size_t e = 0; e < matrix_.lower.size(); ++e) {
@@ -309,8 +321,8 @@ class ObstacleSolver {
   void for_each_neighbour(Cell c, Body&& body) const {
     for (std::size_t e = 0; e < matrix_.lower.size(); ++e) {
       const Step s = matrix_.steps[e];
-      if (matrix_.lower[e][c] != 0) body(c - s);
-      if (matrix_.lower[e][c + s] != 0) body(c + s);
+      if (matrix_.lower[e][c] != 0) body(layout_.image(c - s));
+      if (matrix_.lower[e][c + s] != 0) body(layout_.image(c + s));
     }
   }
 

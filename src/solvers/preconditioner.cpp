@@ -115,13 +115,16 @@ class Factors {
       : layout_(matrix.layout), box_(matrix.box), packed_(static_cast<Eigen::Index>(box_.size())) {
     Field<At, int> number(layout_, -1);
     for_each_numbered<At>(layout_, box_, [&](At p, int n) { number[p] = n; });
+    wrap(layout_, box_, number);
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(static_cast<std::size_t>(box_.size()) * (matrix.lower.size() + 1));
     for_each_numbered<At>(layout_, box_, [&](At p, int n) {
       entries.emplace_back(n, n, matrix.diagonal[p]);
       for (std::size_t e = 0; e < matrix.lower.size(); ++e) {
         const int neighbour = number[p - matrix.steps[e]];
-        if (neighbour >= 0 && matrix.lower[e][p] != 0) entries.emplace_back(n, neighbour, matrix.lower[e][p]);
+        if (neighbour < 0 || matrix.lower[e][p] == 0) continue;
+        // Across the ends of a periodic axis the lower neighbour has the higher number.
+        entries.emplace_back(std::max(n, neighbour), std::min(n, neighbour), matrix.lower[e][p]);
       }
     });
     Eigen::SparseMatrix<double> sparse(packed_.size(), packed_.size());

@@ -1,6 +1,8 @@
 #include "solvers/stencil_matrix.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <type_traits>
 
 namespace quicksand {
@@ -93,26 +95,57 @@ StencilMatrix<Dim, At>::StencilMatrix(const Layout<Dim>& layout_in, Stencil sten
       diagonal(layout_in),
       lower(offsets.size(), Field<At>(layout_in)) {
   if constexpr (std::is_same_v<At, Node>) {
-    for (int d = 0; d < Dim; ++d) ++box.hi[d];
+    for (int d = 0; d < Dim; ++d) box.hi[d] += layout.periodic(d) ? 0 : 1;
   }
   for (const Index<Dim>& offset : offsets) steps.push_back(-flat_step(layout, offset));
 }
 
 template <int Dim, class At>
-void StencilMatrix<Dim, At>::apply(const Field<At>& x, Field<At>& y, const Box<Dim>& where) const {
+void StencilMatrix<Dim, At>::wrap_couplings() {
+  for (Field<At>& couplings : lower) wrap(layout, box, couplings);
+  bool folded = false;
+  for (std::size_t e = 0; e < offsets.size(); ++e) {
+    Index<Dim> offset = offsets[e];
+    for (int d = 0; d < Dim; ++d) offset[d] = layout.image(d, offset[d]) == 0 ? 0 : offset[d];
+    if (offset == offsets[e]) continue;
+    folded = true;
+    fold(e, offset);
+  }
+  if (!folded) return;
+  for (Field<At>& couplings : lower) wrap(layout, box, couplings);
+}
+
+template <int Dim, class At>
+void StencilMatrix<Dim, At>::fold(std::size_t e, const Index<Dim>& offset) {
+  const Step up = flat_step(layout, offset);
+  const auto found = std::find_if(steps.begin(), steps.end(), [&](Step s) { return std::abs(s.n) == std::abs(up.n); });
+  for_each<At>(layout, box, [&](At p) {
+    if (found == steps.end()) {
+      diagonal[p] += 2 * lower[e][p];
+    } else {
+      // The higher of the two points has the coupling.
+      lower[static_cast<std::size_t>(found - steps.begin())][p] += lower[e][up.n > 0 ? p - up : p];
+    }
+  });
+  lower[e].fill(0);
+}
+
+template <int Dim, class At>
+void StencilMatrix<Dim, At>::apply(Field<At>& x, Field<At>& y, const Box<Dim>& where) const {
+  wrap(layout, box, x);
   visit_products(*this, x, where, [&](At p, double product) { y[p] = product; });
 }
 
 template <int Dim, class At>
-void StencilMatrix<Dim, At>::residual(const Field<At>& b, const Field<At>& x, Field<At>& r,
-                                      const Box<Dim>& where) const {
+void StencilMatrix<Dim, At>::residual(const Field<At>& b, Field<At>& x, Field<At>& r, const Box<Dim>& where) const {
+  wrap(layout, box, x);
   visit_products(*this, x, where, [&](At p, double product) { r[p] = b[p] - product; });
 }
 
 template <int Dim, class At>
 void StencilMatrix<Dim, At>::set_identity(At p) {
   diagonal[p] = 1;
-  for (std::size_t e = 0; e < lower.size(); ++e) lower[e][p] = lower[e][p + steps[e]] = 0;
+  for (std::size_t e = 0; e < lower.size(); ++e) lower[e][p] = lower[e][layout.image(p + steps[e])] = 0;
 }
 
 template <int Dim, class At>
@@ -141,8 +174,8 @@ StencilMatrix<Dim, At> star_part(const StencilMatrix<Dim, At>& matrix) {
     const Step along = layout.step(d);
     Field<At>& edge = star.lower[axis(d)];
     Box<Dim> inner = matrix.box;
-    ++inner.lo[d];
-    for_each<At>(layout, inner, [&](At high) {
+    if (!matrix.wraps(d)) ++inner.lo[d];
+    for_each_indexed<At>(layout, inner, [&](At high, const Index<Dim>& i) {
       const At low = high - along;
       double coupling = matrix.lower[axis(d)][high];
       for (std::size_t e = axis(Dim); e < matrix.offsets.size(); ++e) {
@@ -154,9 +187,11 @@ StencilMatrix<Dim, At> star_part(const StencilMatrix<Dim, At>& matrix) {
         coupling += (matrix.lower[e][down ? high : high + s] + matrix.lower[e][down ? low + s : low]) / 2;
       }
       // Between two coupled rows only: identity rows stay identity rows.
-      if (!matrix.uncoupled(low) && !matrix.uncoupled(high)) edge[high] = std::min(coupling, 0.0);
+      const At low_row = high + (layout.image(d, i[d] - 1) - i[d]) * along;
+      if (!matrix.uncoupled(low_row) && !matrix.uncoupled(high)) edge[high] = std::min(coupling, 0.0);
     });
   }
+  star.wrap_couplings();
   for_each<At>(layout, matrix.box, [&](At p) {
     double diagonal = matrix.row_sum(p);
     for (std::size_t e = 0; e < star.lower.size(); ++e) {

@@ -7,6 +7,7 @@
 #include "core/field.hpp"
 #include "core/layout.hpp"
 #include "core/loop.hpp"
+#include "core/periodic.hpp"
 
 namespace quicksand {
 
@@ -22,11 +23,13 @@ std::vector<Index<Dim>> lower_offsets(Stencil stencil);
 ///
 /// (A x)(p) = diagonal(p) x(p) + sum over e of [ lower(e)(p) x(p - s_e) + lower(e)(p + s_e) x(p + s_e) ]
 /// where s_e = -(lower offset e) as a flat step. Points outside the mask (rows not solved for) carry diagonal 1 and
-/// couplings 0: identity rows with symmetric elimination.
+/// couplings 0: identity rows with symmetric elimination. Where the box wraps along a periodic axis, p - s_e and p +
+/// s_e go on at its other end: the layer around the box then holds copies, of x and of the couplings.
 template <int Dim, class At>
 struct StencilMatrix {
   StencilMatrix() = default;
-  /// Matrix of zeros on all positions of the layout's owned cells or, for nodes, one more along every axis.
+  /// Matrix of zeros on all positions of the layout's owned cells or, for nodes, one more along every axis that is not
+  /// periodic.
   StencilMatrix(const Layout<Dim>& layout, Stencil stencil);
 
   Layout<Dim> layout;
@@ -37,19 +40,29 @@ struct StencilMatrix {
   Field<At> diagonal;
   std::vector<Field<At>> lower;  ///< lower[e](p) couples p with p - steps[e]
 
-  /// y = A x on the box. x must be zero in the layer around the box wherever the coupling there is not zero.
-  void apply(const Field<At>& x, Field<At>& y) const { apply(x, y, box); }
+  bool wraps(int d) const { return layout.wraps(box, d); }
+  /// To be called when the couplings in the box have been written: copies them across the ends of periodic axes. Along
+  /// one of a single point, where a point is its own neighbour, they become part of the other entries.
+  void wrap_couplings();
+  /// y = A x on the box. x must be zero in the layer around the box wherever the coupling there is not zero; where the
+  /// box wraps, that layer is written to.
+  void apply(Field<At>& x, Field<At>& y) const { apply(x, y, box); }
   /// The same on a part of the box; x in the layer around that part counts.
-  void apply(const Field<At>& x, Field<At>& y, const Box<Dim>& where) const;
+  void apply(Field<At>& x, Field<At>& y, const Box<Dim>& where) const;
   /// r = b - A x on the box, under the same condition on x.
-  void residual(const Field<At>& b, const Field<At>& x, Field<At>& r) const { residual(b, x, r, box); }
-  void residual(const Field<At>& b, const Field<At>& x, Field<At>& r, const Box<Dim>& where) const;
-  /// Row p becomes an identity row with symmetric elimination. Writes to p's neighbours: not for threaded loops.
+  void residual(const Field<At>& b, Field<At>& x, Field<At>& r) const { residual(b, x, r, box); }
+  void residual(const Field<At>& b, Field<At>& x, Field<At>& r, const Box<Dim>& where) const;
+  /// Row p becomes an identity row with symmetric elimination, before wrap_couplings(). Writes to p's neighbours: not
+  /// for threaded loops.
   void set_identity(At p);
   /// Sum of the entries of row p.
   double row_sum(At p) const;
   /// Whether row p couples to nothing, as identity rows do.
   bool uncoupled(At p) const;
+
+ private:
+  /// Moves the couplings of lower offset e to where `offset` leads from every row.
+  void fold(std::size_t e, const Index<Dim>& offset);
 };
 
 /// The 5/7-point matrix nearest to a 9/27-point one: a preconditioner with the same row sums and the same Dirichlet
@@ -61,8 +74,21 @@ struct StencilMatrix {
 template <int Dim, class At>
 StencilMatrix<Dim, At> star_part(const StencilMatrix<Dim, At>& matrix);
 
+/// `box` itself, but all of `whole` along the axes on which that wraps and `box` reaches an end of it: what lies beyond
+/// is at the other end.
+template <int Dim>
+Box<Dim> close_rings(const Layout<Dim>& layout, Box<Dim> box, const Box<Dim>& whole) {
+  for (int d = 0; d < Dim; ++d) {
+    if (!layout.wraps(whole, d) || (box.lo[d] > whole.lo[d] && box.hi[d] < whole.hi[d])) continue;
+    box.lo[d] = whole.lo[d];
+    box.hi[d] = whole.hi[d];
+  }
+  return box;
+}
+
 /// The smallest box around the points of `box` where inside(At) holds, empty if there is none. The cost of a solve is
-/// that of its box: set StencilMatrix::box to the bounding box of the rows that are no identity rows.
+/// that of its box: set StencilMatrix::box to the bounding box of the rows that are no identity rows. Where it reaches
+/// an end of a periodic axis it spans the axis.
 template <class At, int Dim, class Inside>
 Box<Dim> bounding_box(const Layout<Dim>& layout, const Box<Dim>& box, Inside&& inside) {
   Box<Dim> found{box.hi, box.lo};
@@ -81,7 +107,7 @@ Box<Dim> bounding_box(const Layout<Dim>& layout, const Box<Dim>& box, Inside&& i
       found.hi[d] = std::max(found.hi[d], (d == 0 ? index[0] + last : index[d]) + 1);
     }
   }
-  return found;
+  return found.empty() ? found : close_rings(layout, found, box);
 }
 
 }  // namespace quicksand

@@ -85,6 +85,7 @@ const ShippedCase cases[] = {
     {"sloshing/axisymmetric", 1, 6.8},
     {"sloshing/two_layer", 1, 12.8},
     {"slabs/colliding", 1, 1},
+    {"slope/mud", 5, 120},
 };
 
 std::string name_of(const ::testing::TestParamInfo<ShippedCase>& info) {

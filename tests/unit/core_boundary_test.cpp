@@ -2,6 +2,7 @@
 
 #include "core/boundary.hpp"
 #include "core/domain.hpp"
+#include "core/errors.hpp"
 #include "support/grids.hpp"
 
 namespace quicksand {
@@ -69,6 +70,35 @@ TEST(CoreBoundary, GhostsOfASingleCellMirrorIt) {
     EXPECT_EQ(f[grid.cell({2, -k})], f[grid.cell({2, 0})]);
     EXPECT_EQ(f[grid.cell({2, k})], f[grid.cell({2, 0})]);
   }
+}
+
+TEST(CoreBoundary, GhostsOfPeriodicAxesAreCopies) {
+  const Grid<2> grid = Grid<2>({uniform_axis(5), uniform_axis(1)}, Geometry::planar).with_periodic({{true, true}});
+  const Grid<3> half = testing::box_grid(3).with_periodic({{true, false, false}});
+  CellField f(grid.layout()), g(half.layout());
+  testing::set_rough(grid, f, 1);
+  testing::set_rough(half, g, 1);
+  const auto odd = [](int, int) { return GhostRule{-1, 0}; };
+  fill_ghosts(grid, f, odd);
+  fill_ghosts(half, g, odd);
+  for (int k = 1; k <= ghosts; ++k) {
+    EXPECT_EQ(f[grid.cell({-k, 0})], f[grid.cell({5 - k, 0})]);
+    EXPECT_EQ(f[grid.cell({4 + k, 0})], f[grid.cell({k - 1, 0})]);
+    EXPECT_EQ(f[grid.cell({2, k})], f[grid.cell({2, 0})]);
+    EXPECT_EQ(f[grid.cell({-1, -k})], f[grid.cell({4, 0})]);
+    EXPECT_EQ(g[half.cell({-k, -1, 1})], -g[half.cell({3 - k, 0, 1})]);
+  }
+}
+
+TEST(CoreBoundary, PeriodicSidesComeInPairs) {
+  Sides<2> sides = testing::all_sides(planar_grid(4), SideKind::periodic);
+  const Domain<2> ring(planar_grid(4), sides);
+  EXPECT_TRUE(ring.side_faces(0, 0).empty());
+  EXPECT_EQ(ring.aperture[0][low_face(ring.grid.cell({0, 1}))], 0.25);
+  EXPECT_EQ(ring.aperture[0][low_face(ring.grid.cell({4, 1}))], 0.25);
+  EXPECT_THROW(Domain<2>(testing::tank_grid(4), sides), InputError);
+  sides.at(1, 0).kind = SideKind::no_slip;
+  EXPECT_THROW(Domain<2>(planar_grid(4), sides), InputError);
 }
 
 TEST(CoreBoundary, SeamsBetweenGridsAreLeftAlone) {

@@ -128,5 +128,32 @@ TEST(CoreGrid, RefusesAxesThatDoNotIncrease) {
   EXPECT_THROW(Grid<2>({uniform_axis(4, -1, 1), uniform_axis(2)}, Geometry::axisymmetric), InputError);
 }
 
+TEST(CoreGrid, MetricsRepeatAlongPeriodicAxes) {
+  const Grid<2> tube = stretched_tank.with_periodic({{false, true}});
+  const int n = tube.owned_cells()[1];
+  const double length = tube.face_position(1, n) - tube.face_position(1, 0);
+  EXPECT_EQ(tube.nodes().hi, (Index<2>{{20, 11}}));
+  EXPECT_FALSE(tube.at_boundary(1, 0));
+  EXPECT_TRUE(tube.at_boundary(0, 1));
+  for (int k = -ghosts; k < ghosts; ++k) {
+    // From the cell below the seam to that above it, bit by bit.
+    EXPECT_EQ(tube.width_1d(1, k), tube.width_1d(1, (n + k) % n));
+    EXPECT_EQ(tube.width_1d(1, n + k), tube.width_1d(1, (n + k) % n));
+    EXPECT_NEAR(tube.centre_position(1, n + k), tube.centre_position(1, k) + length, 1e-14);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(tube.volume(tube.cell({i, k})), tube.volume(tube.cell({i, n + k})));
+      EXPECT_EQ(tube.area(0, low_face(tube.cell({i, k}))), tube.area(0, low_face(tube.cell({i, n + k}))));
+      EXPECT_EQ(tube.area(1, low_face(tube.cell({i, k}))), tube.area(1, low_face(tube.cell({i, n + k}))));
+    }
+  }
+  // A part of a periodic axis does not close.
+  const Grid<2> part({stretched_tank.global_faces(0), stretched_tank.global_faces(1)}, Geometry::axisymmetric,
+                     {{0, 0}, {19, 4}}, {{false, true}});
+  EXPECT_FALSE(part.layout().periodic(1));
+  EXPECT_EQ(part.nodes().hi[1], 5);
+}
+
+TEST(CoreGrid, TheRadiusCannotBePeriodic) { EXPECT_THROW(stretched_tank.with_periodic({{true, false}}), InputError); }
+
 }  // namespace
 }  // namespace quicksand

@@ -39,6 +39,9 @@ void expect_every_point_once(const Layout<Dim>& layout) {
 
 TEST(CoreLoop, VisitsEveryPointOfThePlaneOnce) { expect_every_point_once(plane); }
 TEST(CoreLoop, VisitsEveryPointOfSpaceOnce) { expect_every_point_once(space); }
+TEST(CoreLoop, VisitsEveryPointOfARingOnce) {
+  for (const int n : {1, 2, 3, 130, 131}) expect_every_point_once(Layout<2>({n, 111}, {{true, true}}));
+}
 
 TEST(CoreLoop, EmptyBoxesAreNotVisited) {
   int visits = 0;
@@ -62,7 +65,7 @@ NodeField scatter(const Layout<Dim>& layout, int thread_number) {
     for (int k = 0; k < (1 << Dim); ++k) {
       Node n = low_node(c);
       for (int d = 0; d < Dim; ++d) n = n + ((k >> d) & 1) * layout.step(d);
-      nodes[n] += testing::rough(i, 0.5) / (k + 1);
+      nodes[layout.image(n)] += testing::rough(i, 0.5) / (k + 1);
     }
   });
   return nodes;
@@ -79,6 +82,10 @@ void expect_scatter_without_races(const Layout<Dim>& layout) {
 
 TEST(CoreLoop, ColouredScatterInThePlaneHasNoRaces) { expect_scatter_without_races(plane); }
 TEST(CoreLoop, ColouredScatterInSpaceHasNoRaces) { expect_scatter_without_races(space); }
+TEST(CoreLoop, ColouredScatterRoundRingsHasNoRaces) {
+  expect_scatter_without_races(Layout<2>({131, 111}, {{true, true}}));
+  expect_scatter_without_races(Layout<3>({33, 21, 19}, {{false, true, true}}));
+}
 
 TEST(CoreLoop, SumsDoNotDependOnTheNumberOfThreads) {
   CellField f(space);

@@ -141,6 +141,7 @@ TEST(PhysicsSeam, HalvesOfAPlaneGiveTheBitsOfTheWhole) {
   for (const int axis : {0, 1}) {
     expect_halves_give_the_whole(testing::stretched_grid(14), SideKind::no_slip, axis);
     expect_halves_give_the_whole(testing::stretched_grid(14), SideKind::open, axis);
+    expect_halves_give_the_whole(testing::stretched_grid(14), SideKind::periodic, axis);
   }
 }
 
@@ -149,7 +150,10 @@ TEST(PhysicsSeam, HalvesOfATankGiveTheBitsOfTheWhole) {
 }
 
 TEST(PhysicsSeam, HalvesOfABoxGiveTheBitsOfTheWhole) {
-  for (const int axis : {0, 1, 2}) expect_halves_give_the_whole(testing::box_grid(8), SideKind::no_slip, axis);
+  for (const int axis : {0, 1, 2}) {
+    expect_halves_give_the_whole(testing::box_grid(8), SideKind::no_slip, axis);
+    expect_halves_give_the_whole(testing::box_grid(8), SideKind::periodic, axis);
+  }
 }
 
 }  // namespace

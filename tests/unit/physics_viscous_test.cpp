@@ -47,7 +47,7 @@ struct Problem {
     evaluate_functional(domain, u_hat, u, dt, work, g);
     return g;
   }
-  CellVectors<Dim> times_matrix(const CellVectors<Dim>& v) {
+  CellVectors<Dim> times_matrix(CellVectors<Dim> v) {
     CellVectors<Dim> y(domain.layout());
     work.matrix.apply(v, y);
     return y;

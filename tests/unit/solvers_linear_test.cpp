@@ -28,7 +28,7 @@ auto lower_part(const Grid<Dim>& grid) {
 }
 
 template <int Dim, class At>
-double true_residual(const StencilMatrix<Dim, At>& matrix, const Field<At>& b, const Field<At>& x) {
+double true_residual(const StencilMatrix<Dim, At>& matrix, const Field<At>& b, Field<At>& x) {
   Field<At> r(matrix.layout);
   matrix.residual(b, x, r);
   return std::sqrt(dot<At>(matrix.layout, matrix.box, r, r) / dot<At>(matrix.layout, matrix.box, b, b));
@@ -206,7 +206,7 @@ TEST(ConjugateGradients, SolvesForVectorsOfFields) {
   const Layout<2>& layout = grid.layout();
   // Two components coupled in every cell: [A + s, s; s, A + 2 s].
   const double s = 0.01;
-  const auto apply = [&](const CellVectors<2>& x, CellVectors<2>& y) {
+  const auto apply = [&](CellVectors<2>& x, CellVectors<2>& y) {
     for (int d = 0; d < 2; ++d) {
       laplacian.apply(x[d], y[d]);
       for_each<Cell>(layout, grid.cells(), [&](Cell c) { y[d][c] += s * (x[0][c] + x[1][c] + d * x[1][c]); });

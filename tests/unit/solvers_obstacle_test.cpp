@@ -59,14 +59,14 @@ struct Problem {
   }
 
   /// 1/2 H^T A H - b^T H of any field.
-  double energy(const CellField& field) const {
+  double energy(CellField field) const {
     CellField product(grid.layout());
     matrix.apply(field, product);
     return dot<Cell>(grid.layout(), grid.cells(), field, product) / 2 -
            dot<Cell>(grid.layout(), grid.cells(), b, field);
   }
 
-  void expect_complementary(double tolerance) const {
+  void expect_complementary(double tolerance) {
     CellField r(grid.layout());
     matrix.residual(b, H, r);
     double worst = 0;

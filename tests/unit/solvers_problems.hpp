@@ -32,10 +32,10 @@ StencilMatrix<Dim, Cell> cell_laplacian(const Grid<Dim>& grid, Inside&& inside, 
   StencilMatrix<Dim, Cell> matrix(grid.layout(), Stencil::star);
   for (int d = 0; d < Dim; ++d) {
     for_each_indexed<Cell>(grid.layout(), grid.faces(d), [&](Cell high, const Index<Dim>& i) {
-      if (i[d] == 0 || i[d] == grid.owned_cells()[d]) return;
+      if (i[d] == grid.owned_cells()[d] || (i[d] == 0 && !grid.layout().periodic(d))) return;
       Index<Dim> below = i;
-      --below[d];
-      const Cell low = high - grid.step(d);
+      below[d] = grid.layout().image(d, i[d] - 1);
+      const Cell low = grid.cell(below);
       const double area = grid.area(d, low_face(high));
       const double weight = area * 2 / (grid.width(d, low) + grid.width(d, high));
       if (inside(i) && inside(below)) {
@@ -52,6 +52,7 @@ StencilMatrix<Dim, Cell> cell_laplacian(const Grid<Dim>& grid, Inside&& inside, 
   for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c) {
     if (matrix.diagonal[c] == 0) matrix.diagonal[c] = 1;
   });
+  matrix.wrap_couplings();
   return matrix;
 }
 
@@ -66,10 +67,11 @@ StencilMatrix<Dim, Node> node_laplacian(const Grid<Dim>& grid, Inside&& inside) 
     for (int d = 0; d < Dim; ++d) s = s + ((k >> d) & 1) * grid.step(d);
     return s;
   };
+  const auto image = [&](Node n) { return grid.layout().image(n); };
   NodeMask fixed(grid.layout(), 0);
   for_each_coloured<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& index) {
     if (!inside(index)) {
-      for (int a = 0; a < corners; ++a) fixed[low_node(c) + corner_step(a)] = 1;
+      for (int a = 0; a < corners; ++a) fixed[image(low_node(c) + corner_step(a))] = 1;
       return;
     }
     for (int a = 0; a < corners; ++a) {
@@ -87,10 +89,10 @@ StencilMatrix<Dim, Node> node_laplacian(const Grid<Dim>& grid, Inside&& inside) 
         }
         const Node pa = low_node(c) + corner_step(a);
         const Node pb = low_node(c) + corner_step(b);
-        if (a == b) matrix.diagonal[pa] += value;
+        if (a == b) matrix.diagonal[image(pa)] += value;
         const Node upper = pa.n > pb.n ? pa : pb;
         for (std::size_t e = 0; e < matrix.steps.size(); ++e) {
-          if (matrix.steps[e].n == std::abs(pa.n - pb.n)) matrix.lower[e][upper] += value;
+          if (matrix.steps[e].n == std::abs(pa.n - pb.n)) matrix.lower[e][image(upper)] += value;
         }
       }
     }
@@ -98,6 +100,7 @@ StencilMatrix<Dim, Node> node_laplacian(const Grid<Dim>& grid, Inside&& inside) 
   for_each_coloured<Node>(grid.layout(), matrix.box, [&](Node p, const Index<Dim>&) {
     if (fixed[p] != 0) matrix.set_identity(p);
   });
+  matrix.wrap_couplings();
   return matrix;
 }
 
