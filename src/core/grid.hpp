@@ -48,7 +48,6 @@ class Grid {
   /// Cells of the whole domain, of which this grid owns owned_global().
   const Index<Dim>& global_cells() const { return global_cells_; }
   const Box<Dim>& owned_global() const { return owned_global_; }
-  const AxisFlags<Dim>& periodic() const { return periodic_; }
   /// Whether the owned box ends at the domain's low (side 0) or high (side 1) boundary along d. A periodic axis has
   /// none.
   bool at_boundary(int d, int side) const {

@@ -14,7 +14,7 @@ namespace {
 
 using testing::Mixture;
 
-constexpr double dt = 0.01;
+constexpr double dt = 0.002;
 
 /// Copies from a grid of the whole domain to one that owns a part of it, ghost cells included.
 template <int Dim>

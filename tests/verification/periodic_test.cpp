@@ -184,7 +184,7 @@ TEST(Periodic, VolumeAndMomentumAreConservedAcrossTheEnds) {
     }
     EXPECT_NEAR(diagnose(flow).volume[0], before.volume[0], 1e-14);
     EXPECT_NEAR(flow.escaped()[0], 0, 1e-15);
-    for (int d = 0; d < 2; ++d) EXPECT_NEAR(momentum(flow, d), momentum_before[d], 1e-11);
+    for (int d = 0; d < 2; ++d) EXPECT_NEAR(momentum(flow, d), momentum_before[d], 1e-13);
   }
 }
 
