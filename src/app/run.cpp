@@ -94,6 +94,9 @@ bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
   }
   run.statistics.add(report, volumes_with_escaped(flow), state.time);
   run.writer.append_history(flow, diagnose(flow), report);
+  for (const GasEvent& event : report.gas) {
+    run.progress.say(event_text(event, state.time, full_circle(flow.domain().grid)));
+  }
   run.progress.step(state.time, state.step, state.dt);
   const bool due = run.control.output_due(state.time);
   if (due) write_fields(flow, run);

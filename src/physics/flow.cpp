@@ -68,6 +68,8 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       redistribution_(domain_, parameters_.species),
       diffusion_(domain_, parameters_.species),
       projection_(domain_.layout()),
+      gas_labels_(domain_.layout()),
+      gas_pressure_(domain_.layout()),
       outer_pressure_(domain_.layout(), parameters_.ambient_pressure) {
   state_.pressure.fill(parameters_.ambient_pressure);
 }
@@ -79,6 +81,7 @@ void Flow<Dim>::refresh() {
   sum_fractions(grid, state_.phi, total_);
   mix_density(grid, parameters_.species, state_.phi, rho_);
   mark_liquid(grid, total_, parameters_.liquid_threshold, liquid_);
+  hold_open(state_.gas, liquid_);
   clear_without_mass(grid, rho_, state_.u);
   fill_velocity_ghosts(grid, domain_.sides, state_.u);
   fill_velocity_ghosts(grid, domain_.sides, state_.acceleration);
@@ -87,6 +90,11 @@ void Flow<Dim>::refresh() {
 template <int Dim>
 void Flow<Dim>::initialize() {
   refresh();
+  if (has_bubbles(gas_parameters(), state_.gas)) {
+    start_gas(domain_, gas_parameters(), total_, gas_labels_, state_.gas);
+    hold_open(state_.gas, liquid_);
+  }
+  gas_pressure_on_nodes(domain_, gas_parameters(), state_.gas, liquid_, false, gas_pressure_, outer_pressure_);
   mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
   // The pressure that balances gravity as the velocities stand: what is at rest stays so from the first step on.
   const Grid<Dim>& grid = domain_.grid;
@@ -157,6 +165,12 @@ StepReport Flow<Dim>::step(double dt) {
   sum_fractions(grid, next_.phi, next_total_);
   mix_density(grid, par.species, next_.phi, next_rho_);
   mark_liquid(grid, next_total_, par.liquid_threshold, next_liquid_);
+  next_.gas.bubbles.clear();
+  if (has_bubbles(gas_parameters(), state_.gas)) {
+    report.gas = advance_gas(domain_, gas_parameters(), state_.gas, total_, next_total_, dt, gas_labels_, next_.gas);
+    hold_open(next_.gas, next_liquid_);
+  }
+  gas_pressure_on_nodes(domain_, gas_parameters(), next_.gas, next_liquid_, true, gas_pressure_, outer_pressure_);
   clock(Phase::redistribute_volume);
   report.momentum = redistribute_momentum(domain_, momentum_tilde_, next_rho_, par.momentum, redistribution_, u_bar_);
   report.redistribution_energy_change = kinetic_energy(grid, next_rho_, u_bar_) - energy_tilde;
