@@ -10,11 +10,26 @@ namespace {
 std::vector<std::string> history_columns(const CaseConfig& config) {
   std::vector<std::string> columns = {"step", "time", "dt"};
   for (const Species& s : config.species) columns.push_back("volume_" + s.name);
-  for (const char* name : {"kinetic_energy", "potential_energy", "max_speed", "max_speed_liquid", "height_axis",
-                           "height_max", "radius_base", "bubbles", "bubble_volume", "bubble_pressure", "bubble_z",
-                           "redistribution_energy_change", "projection_energy_change", "iterations_mac_projection",
-                           "iterations_redistribute_volume", "iterations_redistribute_momentum", "iterations_diffusion",
-                           "iterations_diffusion_linear", "iterations_projection"}) {
+  for (const char* name : {"kinetic_energy",
+                           "potential_energy",
+                           "max_speed",
+                           "max_speed_liquid",
+                           "height_axis",
+                           "height_max",
+                           "radius_base",
+                           "bubbles",
+                           "bubble_volume",
+                           "bubble_pressure",
+                           "bubble_z",
+                           "redistribution_energy_change",
+                           "projection_energy_change",
+                           "gas_work",
+                           "iterations_mac_projection",
+                           "iterations_redistribute_volume",
+                           "iterations_redistribute_momentum",
+                           "iterations_diffusion",
+                           "iterations_diffusion_linear",
+                           "iterations_projection"}) {
     columns.emplace_back(name);
   }
   return columns;
@@ -102,14 +117,26 @@ void ResultWriter<Dim>::append_history(const Flow<Dim>& flow, const Diagnostics&
   const std::vector<BubbleMeasures<Dim>> bubbles = measure_bubbles(flow);
   BubbleMeasures<Dim> largest{};
   for (const BubbleMeasures<Dim>& b : bubbles) largest = b.volume > largest.volume ? b : largest;
-  line.insert(
-      line.end(),
-      {diagnostics.kinetic_energy, diagnostics.potential_energy, diagnostics.max_speed, diagnostics.max_speed_liquid,
-       diagnostics.height_axis, diagnostics.height_max, diagnostics.radius_base, static_cast<double>(bubbles.size()),
-       largest.volume, largest.pressure, largest.centroid[Dim - 1], report.redistribution_energy_change,
-       report.projection_energy_change, static_cast<double>(report.mac.iterations), static_cast<double>(obstacle),
-       static_cast<double>(report.momentum.iterations), static_cast<double>(report.diffusion.iterations),
-       static_cast<double>(report.diffusion.linear_iterations), static_cast<double>(report.projection.iterations)});
+  line.insert(line.end(), {diagnostics.kinetic_energy,
+                           diagnostics.potential_energy,
+                           diagnostics.max_speed,
+                           diagnostics.max_speed_liquid,
+                           diagnostics.height_axis,
+                           diagnostics.height_max,
+                           diagnostics.radius_base,
+                           static_cast<double>(bubbles.size()),
+                           largest.volume,
+                           largest.pressure,
+                           largest.centroid[Dim - 1],
+                           report.redistribution_energy_change,
+                           report.projection_energy_change,
+                           report.gas_work,
+                           static_cast<double>(report.mac.iterations),
+                           static_cast<double>(obstacle),
+                           static_cast<double>(report.momentum.iterations),
+                           static_cast<double>(report.diffusion.iterations),
+                           static_cast<double>(report.diffusion.linear_iterations),
+                           static_cast<double>(report.projection.iterations)});
   history_->append(line);
   if (bubbles_) bubbles_->append(state, bubbles, report.gas, full_circle(flow.domain().grid));
 }

@@ -193,6 +193,7 @@ StepReport Flow<Dim>::step(double dt) {
   const double energy_star = kinetic_energy(grid, next_rho_, u_star);
   report.projection = solve_pressure(domain_, u_star, next_rho_, next_liquid_, outer_pressure_, dt, par.linear,
                                      projection_, next_.pressure);
+  report.gas_work = gas_work(domain_, u_star, next_rho_, next_liquid_, dt, projection_);
   add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, -dt, next_.u);
   report.projection_energy_change = kinetic_energy(grid, next_rho_, next_.u) - energy_star;
   scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, u_bar_, next_.acceleration);

@@ -44,6 +44,7 @@ struct StepReport {
   SolveReport projection;
   double redistribution_energy_change = 0;  ///< kinetic energy after less before, (24)-(27) and (11) together
   double projection_energy_change = 0;      ///< kinetic energy of u^{n+1} less that of (52)
+  double gas_work = 0;                      ///< what gas at different pressures has done in the projection
   std::vector<GasEvent> gas;                ///< what happened to the bubbles
 };
 

@@ -37,6 +37,11 @@ void for_labelled(const Grid<Dim>& grid, const CellLabels& labels, int empty, Bo
   }
 }
 
+GasPortion ambient_gas(const GasParameters& parameters, double volume) {
+  const double pressure = parameters.ambient_pressure;
+  return {pressure * volume, parameters.trapped.exponent, volume, pressure};
+}
+
 /// What regions before a step and components after it have in common.
 struct Overlap {
   Table now;    ///< (region before, component): gas volume after the step that the component has of the region
@@ -110,6 +115,15 @@ Assembly assemble(const GasLabels& labels, Overlap& overlap) {
   return assembly;
 }
 
+/// Writes the ids of the regions into their gas cells. \param ids  per component that is a whole region
+template <int Dim>
+void set_regions(const Grid<Dim>& grid, const GasLabels& labels, const Assembly& assembly, const std::vector<int>& ids,
+                 CellLabels& region) {
+  region.fill(0);
+  for_labelled(grid, labels.component, none,
+               [&](Cell c) { region[c] = ids[at(assembly.whole[at(labels.component[c])])]; });
+}
+
 /// A part of a bubble's gas and where it goes.
 struct Transfer {
   int bubble;
@@ -139,40 +153,60 @@ std::vector<std::vector<Transfer>> divide(const GasState& before, const Overlap&
   return into;
 }
 
-/// Ids of the regions: a region is called after the bubble that gave most of its gas, and where a bubble is so the
-/// greatest giver to several, the largest of them has its id and the others get new ones.
-std::vector<int> find_ids(const std::vector<std::vector<Transfer>>& into, const std::vector<bool>& ambient,
-                          int& last_id) {
-  std::vector<int> giver(into.size(), 0);
+/// What the regions are called.
+struct Names {
+  std::vector<int> id;     ///< per component
+  std::vector<int> giver;  ///< the bubble that gave most of a region's gas, 0 if none did
+};
+
+/// A region is called after the bubble that gave most of its gas. Where a bubble is the greatest giver to several, the
+/// largest of them has its id and the others get new ones.
+Names find_names(const std::vector<std::vector<Transfer>>& into, const std::vector<bool>& ambient, int& last_id) {
+  Names names{std::vector<int>(into.size(), open_air), std::vector<int>(into.size(), 0)};
   std::map<int, std::pair<double, std::size_t>> largest;
   for (std::size_t k = 0; k < into.size(); ++k) {
     if (ambient[k] || into[k].empty()) continue;
     const auto most = std::max_element(into[k].begin(), into[k].end(), [](const Transfer& x, const Transfer& y) {
       return std::pair(!x.rest, x.portion.amount) < std::pair(!y.rest, y.portion.amount);
     });
-    giver[k] = most->bubble;
-    const auto found = largest.find(giver[k]);
+    names.giver[k] = most->bubble;
+    const auto found = largest.find(most->bubble);
     if (found == largest.end() || most->portion.volume > found->second.first) {
-      largest[giver[k]] = {most->portion.volume, k};
+      largest[most->bubble] = {most->portion.volume, k};
     }
   }
-  std::vector<int> ids(into.size(), open_air);
   for (std::size_t k = 0; k < into.size(); ++k) {
-    if (giver[k] == 0) continue;
-    ids[k] = largest[giver[k]].second == k ? giver[k] : ++last_id;
+    const int giver = names.giver[k];
+    if (giver != 0) names.id[k] = largest[giver].second == k ? giver : ++last_id;
   }
-  return ids;
+  return names;
 }
 
-GasEvent describe(const Transfer& transfer, int id, bool split) {
+/// What the transfer of gas between a bubble and another region, `id`, is. \param giver  gave most of that region's gas
+GasEvent describe(const Transfer& transfer, int id, int giver) {
   GasEvent event{GasEventKind::lost, transfer.bubble, 0, transfer.portion.volume, transfer.portion.pressure};
   if (id == open_air) {
     event.kind = transfer.rest ? GasEventKind::lost : GasEventKind::vented;
-  } else {
-    event.kind = transfer.rest ? GasEventKind::absorbed : split ? GasEventKind::split : GasEventKind::merged;
-    event.other = id;
+    return event;
   }
+  event.other = id;
+  event.kind = transfer.rest              ? GasEventKind::absorbed
+               : transfer.bubble == giver ? GasEventKind::split
+                                          : GasEventKind::merged;
   return event;
+}
+
+/// Bubbles that end without a region to go to.
+std::vector<GasEvent> losses(const GasState& before, const std::vector<std::vector<Transfer>>& into) {
+  std::set<int> sent;
+  for (const std::vector<Transfer>& transfers : into) {
+    for (const Transfer& t : transfers) sent.insert(t.bubble);
+  }
+  std::vector<GasEvent> events;
+  for (const Bubble& b : before.bubbles) {
+    if (sent.count(b.id) == 0) events.push_back({GasEventKind::lost, b.id, 0, b.volume, b.pressure});
+  }
+  return events;
 }
 
 }  // namespace
@@ -250,14 +284,11 @@ void start_gas(const Domain<Dim>& domain, const GasParameters& parameters, const
     const bool enclosed = assembly.whole[k] == static_cast<int>(k) && ids[k] == open_air && !labels.components[k].open;
     if (!enclosed || !parameters.trapped.adiabatic) continue;
     const double volume = assembly.volume[k];
-    const double pressure = parameters.ambient_pressure;
-    Bubble bubble = join({{pressure * volume, parameters.trapped.exponent, volume, pressure}});
+    Bubble bubble = join({ambient_gas(parameters, volume)});
     bubble.id = ids[k] = ++gas.last_id;
     gas.bubbles.push_back(bubble);
   }
-  gas.region.fill(0);
-  for_labelled(domain.grid, labels.component, none,
-               [&](Cell c) { gas.region[c] = ids[at(assembly.whole[at(labels.component[c])])]; });
+  set_regions(domain.grid, labels, assembly, ids, gas.region);
 }
 
 template <int Dim>
@@ -266,61 +297,48 @@ std::vector<GasEvent> advance_gas(const Domain<Dim>& domain, const GasParameters
                                   GasState& after) {
   label_gas(domain, total, parameters.liquid_threshold, before.region, labels);
   Overlap overlap = find_overlap(domain.grid, before, total_before, total, labels);
-  Assembly assembly = assemble(labels, overlap);
+  const Assembly assembly = assemble(labels, overlap);
   const std::vector<std::vector<Transfer>> into = divide(before, overlap, assembly);
 
-  const auto enclosed = [&](std::size_t k) {
-    return !labels.components[k].open && assembly.whole[k] == static_cast<int>(k);
-  };
   std::vector<bool> ambient(into.size());
   for (std::size_t k = 0; k < into.size(); ++k) {
+    const bool region = assembly.whole[k] == static_cast<int>(k);
     const bool holds_bubble = std::any_of(into[k].begin(), into[k].end(), [](const Transfer& t) { return !t.rest; });
-    ambient[k] = !enclosed(k) || !(holds_bubble || parameters.trapped.adiabatic);
+    ambient[k] = !region || labels.components[k].open || !(holds_bubble || parameters.trapped.adiabatic);
   }
   after.last_id = before.last_id;
   after.bubbles.clear();
   after.held_open = assembly.held_open;
-  std::vector<int> ids = find_ids(into, ambient, after.last_id);
-  std::vector<GasEvent> events;
+  Names names = find_names(into, ambient, after.last_id);
+  std::vector<GasEvent> events = losses(before, into);
   for (std::size_t k = 0; k < into.size(); ++k) {
-    const int component = static_cast<int>(k);
     std::vector<GasPortion> portions;
-    const bool old_id = find(before, ids[k]) != nullptr;
     for (const Transfer& transfer : into[k]) {
       portions.push_back(transfer.portion);
-      const bool split =
-          !old_id &&
-          transfer.bubble == std::max_element(into[k].begin(), into[k].end(), [](const Transfer& x, const Transfer& y) {
-                               return x.portion.amount < y.portion.amount;
-                             })->bubble;
-      if (transfer.bubble != ids[k]) events.push_back(describe(transfer, ids[k], split));
+      if (transfer.bubble != names.id[k]) events.push_back(describe(transfer, names.id[k], names.giver[k]));
     }
     if (ambient[k]) continue;
-    const double pressure = parameters.ambient_pressure;
-    const auto air = [&](double volume) {
-      return GasPortion{pressure * volume, parameters.trapped.exponent, volume, pressure};
-    };
-    const auto shared = overlap.then.find({open_air, component});
+    const std::pair air_part{open_air, static_cast<int>(k)};
+    const double volume = assembly.volume[k];
     if (portions.empty()) {
-      const bool was_air = overlap.now.count({open_air, component}) > 0;
-      portions.push_back(air(assembly.volume[k]));
-      ids[k] = ++after.last_id;
-      events.push_back({was_air ? GasEventKind::closed : GasEventKind::born, ids[k], 0, assembly.volume[k], pressure});
-    } else if (shared != overlap.then.end() && shared->second > 0) {
-      portions.push_back(air(shared->second));
+      const bool was_air = overlap.now.count(air_part) > 0;
+      names.id[k] = ++after.last_id;
+      portions.push_back(ambient_gas(parameters, volume));
+      events.push_back(
+          {was_air ? GasEventKind::closed : GasEventKind::born, names.id[k], 0, volume, parameters.ambient_pressure});
+    } else if (const auto shared = overlap.then.find(air_part); shared != overlap.then.end()) {
+      portions.push_back(ambient_gas(parameters, shared->second));
     }
     Bubble bubble = join(portions);
-    bubble.id = ids[k];
-    bubble.growth = (assembly.volume[k] - bubble.volume) / dt;
-    change_volume(bubble, assembly.volume[k]);
+    bubble.id = names.id[k];
+    bubble.growth = (volume - bubble.volume) / dt;
+    change_volume(bubble, volume);
     after.bubbles.push_back(bubble);
   }
   std::sort(after.bubbles.begin(), after.bubbles.end(), [](const Bubble& a, const Bubble& b) { return a.id < b.id; });
   std::stable_sort(events.begin(), events.end(),
                    [](const GasEvent& a, const GasEvent& b) { return a.bubble < b.bubble; });
-  after.region.fill(0);
-  for_labelled(domain.grid, labels.component, none,
-               [&](Cell c) { after.region[c] = ids[at(assembly.whole[at(labels.component[c])])]; });
+  set_regions(domain.grid, labels, assembly, names.id, after.region);
   return events;
 }
 

@@ -165,12 +165,38 @@ SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_
   return report;
 }
 
+template <int Dim>
+double gas_work(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, const CellField& rho,
+                const CellMask& liquid, double dt, ProjectionWork<Dim>& work) {
+  using C = Corners<Dim>;
+  const Grid<Dim>& grid = domain.grid;
+  const C corners(domain.layout());
+  const Box<Dim> nodes = grid.nodes();
+  for_each<Node>(domain.layout(), nodes, [&](Node n) { work.rhs[n] = 0; });
+  for_each_coloured<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+    if (!liquid[c]) return;
+    for (int a = 0; a < C::count; ++a) {
+      const Node na = low_node(c) + corners.step[a];
+      if (work.free[na] || work.increment[na] == 0) continue;
+      double outflow = 0;
+      for (int d = 0; d < Dim; ++d) outflow += grid.volume(c) * u_bar_star[d][c] * mean_gradient(grid, i, a, d);
+      for (int b = 0; b < C::count; ++b) {
+        outflow -= dt / rho[c] * stiffness(grid, i, a, b) * work.increment[low_node(c) + corners.step[b]];
+      }
+      work.rhs[na] += outflow;
+    }
+  });
+  return -dt * sum<Node>(domain.layout(), nodes, [&](Node n) { return work.rhs[n] * work.increment[n]; });
+}
+
 #define QUICKSAND_INSTANTIATE(Dim)                                                                                     \
   template void add_pressure_gradient(const Domain<Dim>&, const NodeField&, const CellField&, const CellMask&, double, \
                                       CellVectors<Dim>&);                                                              \
   template SolveReport solve_pressure(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&, const CellMask&,  \
                                       const NodeField&, double, const SolveOptions&, ProjectionWork<Dim>&,             \
-                                      NodeField&);
+                                      NodeField&);                                                                     \
+  template double gas_work(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&, const CellMask&, double,     \
+                           ProjectionWork<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE
