@@ -75,6 +75,9 @@ InitialState<Dim> fill_cells(const CaseConfig& config) {
     CellField phi(state.grid.layout());
     for_each_indexed<Cell>(state.grid.layout(), cells, [&](Cell c, const Index<Dim>& i) {
       phi[c] = fraction(fill.shape, state.grid, i);
+      for (const InitialBubble& bubble : config.bubbles) {
+        phi[c] *= 1 - fraction(SphereShape{bubble.center, bubble.radius}, state.grid, i);
+      }
       state.liquid[c] += phi[c];
     });
     state.volumes.push_back(
