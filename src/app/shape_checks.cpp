@@ -130,6 +130,9 @@ bool check_shape(const CaseConfig& config, const Shape& shape, const std::string
 
 namespace {
 
+/// Gaps below this part of a bubble's radius count as none.
+constexpr double touching = 1e-6;
+
 /// Points across a ball, per axis, at which it is looked for liquid.
 constexpr int samples = 21;
 
@@ -177,7 +180,8 @@ void check_bubbles(const CaseConfig& config, Reading& reading) {
                       "must lie on the axis, x = 0, in axisymmetric cases, not at x = " + shortest(ball.center[0]));
       continue;
     }
-    check_inside(config, ball, path, reading);
+    // A bubble must not touch the side of the domain either.
+    check_inside(config, SphereShape{ball.center, (1 + touching) * ball.radius}, path, reading);
     if (!reading.clean(path)) continue;
     if (outside_liquid(config, ball)) reading.problem(path, "must lie in liquid, but reaches beyond the initial fills");
     for (std::size_t j = 0; j < i; ++j) {

@@ -161,6 +161,7 @@ SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_
   require_converged(report, "pressure projection");
   for_each<Node>(domain.layout(), work.matrix.box, [&](Node n) {
     if (work.free[n]) pressure[n] = reference + work.increment[n];
+    work.increment[n] = pressure[n] - reference;  // the solve leaves 0 on given nodes
   });
   return report;
 }
