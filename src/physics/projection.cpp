@@ -99,8 +99,11 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
   const NodeMask& free = work.free;
   for_each<Node>(domain.layout(), work.matrix.box, [&](Node n) {
     work.matrix.diagonal[n] = free[n] ? 0.0 : 1.0;
-    for (auto& lower : work.matrix.lower) lower[n] = 0;
     work.rhs[n] = 0;
+  });
+  // Rows reach couplings of the nodes around the box, which hold another pressure and may be left from another box.
+  for_each<Node>(domain.layout(), grow(work.matrix.box, 1), [&](Node n) {
+    for (auto& lower : work.matrix.lower) lower[n] = 0;
   });
   Box<Dim> cells = work.matrix.box;
   for (int d = 0; d < Dim; ++d) --cells.lo[d];
