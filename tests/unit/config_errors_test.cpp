@@ -112,7 +112,7 @@ const Mistake bubble_mistakes[] = {
     {"time: {",
      bubble("center: [0, 0.5], radius: 0.1, pressure: 2, adiabatic_exponent: 1.4",
             "  - {center: [0, 0.6], radius: 0.1, pressure: 2, adiabatic_exponent: 1.4}\n"),
-     "27:5", "bubbles[1]", "overlaps bubbles[0] (line 26"},
+     "27:5", "bubbles[1]", "overlaps bubbles[0] (case.yaml:26:5)"},
     {"time: {", "trapped_gas: {adiabatic: maybe}\ntime: {", "25:26", "trapped_gas.adiabatic", "true"},
 };
 INSTANTIATE_TEST_SUITE_P(Bubbles, ConfigMistake, testing::ValuesIn(bubble_mistakes));
