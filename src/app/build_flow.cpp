@@ -12,6 +12,7 @@ FlowParameters<Dim> parameters_of(const CaseConfig& config) {
   p.species = config.species;
   p.gravity = in_axes<Dim>(config.gravity);
   p.ambient_pressure = config.ambient_pressure;
+  p.trapped_gas = config.trapped_gas;
   p.liquid_threshold = config.solver.liquid_threshold;
   p.linear.relative = config.solver.tolerance;
   p.linear.max_iterations = config.solver.max_iterations;
@@ -21,6 +22,9 @@ FlowParameters<Dim> parameters_of(const CaseConfig& config) {
   p.diffusion.max_iterations = config.solver.viscous_max_iterations;
   return p;
 }
+
+/// A cell with a greater part of a bubble has no liquid: no film of round-off stays.
+constexpr double full = 1 - 1e-12;
 
 /// Fills the shapes one after the other; what does not fit on top of earlier ones (round-off of touching shapes) is
 /// left out.
@@ -47,12 +51,30 @@ void fill_shapes(const CaseConfig& config, Flow<Dim>& flow) {
   }
 }
 
+/// Cuts the bubbles out of the liquid and marks their cells.
+template <int Dim>
+void cut_bubbles(const CaseConfig& config, Flow<Dim>& flow) {
+  const Grid<Dim>& grid = flow.domain().grid;
+  State<Dim>& state = flow.state();
+  for (const InitialBubble& bubble : config.bubbles) {
+    const Shape ball = SphereShape{bubble.center, bubble.radius};
+    const int id = ++state.gas.last_id;
+    state.gas.bubbles.push_back({.id = id, .exponent = bubble.adiabatic_exponent, .pressure = bubble.pressure});
+    for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+      const double gas = fraction(ball, grid, i);
+      for (CellField& phi : state.phi) phi[c] *= gas < full ? 1 - gas : 0.0;
+      if (gas > 0.5) state.gas.region[c] = id;
+    });
+  }
+}
+
 }  // namespace
 
 template <int Dim>
 Flow<Dim> build_flow(const CaseConfig& config) {
   Flow<Dim> flow(Domain<Dim>(make_grid<Dim>(config.grid), make_sides<Dim>(config)), parameters_of<Dim>(config));
   fill_shapes(config, flow);
+  cut_bubbles(config, flow);
   flow.initialize();
   return flow;
 }

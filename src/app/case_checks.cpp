@@ -222,6 +222,7 @@ void check_case(const CaseConfig& config, Reading& reading) {
   }
   check_species(config.species, reading);
   check_initial(config, reading);
+  check_bubbles(config, reading);
   check_time(config.time, reading);
   check_output(config, reading);
 }

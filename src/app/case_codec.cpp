@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #include "core/config_variant.hpp"
 
@@ -11,6 +12,7 @@ namespace {
 
 namespace dim = dimension;
 constexpr Range fraction_of_one{0, 1, true};
+constexpr Range above_one{1, std::numeric_limits<double>::infinity(), true};
 
 Codec<UnitSystem> units_codec() { return choice<UnitSystem>({{"SI", UnitSystem::si}, {"none", UnitSystem::none}}); }
 
@@ -176,6 +178,24 @@ Codec<InitialFill> fill_codec() {
   });
 }
 
+Codec<InitialBubble> bubble_codec() {
+  return object<InitialBubble>({
+      required("center", &InitialBubble::center, vector_of(dim::length), "middle"),
+      required("radius", &InitialBubble::radius, quantity(dim::length, positive), "radius"),
+      required("pressure", &InitialBubble::pressure, quantity(dim::pressure, positive), "pressure at the start"),
+      required("adiabatic_exponent", &InitialBubble::adiabatic_exponent, quantity(dim::none, above_one),
+               "gamma of P V^gamma = constant"),
+  });
+}
+
+Codec<TrappedGas> trapped_gas_codec() {
+  return object<TrappedGas>({
+      defaulted("adiabatic", &TrappedGas::adiabatic, flag(),
+                "whether ambient gas that liquid encloses becomes a bubble; else it keeps the ambient pressure"),
+      defaulted("adiabatic_exponent", &TrappedGas::exponent, quantity(dim::none, above_one), "gamma of ambient gas"),
+  });
+}
+
 Codec<TimeSettings> time_codec() {
   const auto duration = quantity(dim::time, positive);
   return object<TimeSettings>({
@@ -234,6 +254,9 @@ Codec<CaseConfig> make_case_codec() {
       required("species", &CaseConfig::species, list_of(species_codec(), 1),
                "the liquids and slurries; where two are pressed together the earlier keeps its place"),
       required("initial", &CaseConfig::initial, list_of(fill_codec(), 1), "what is filled at the start"),
+      defaulted("bubbles", &CaseConfig::bubbles, list_of(bubble_codec()),
+                "gas with a pressure of its own, cut out of the liquid"),
+      defaulted("trapped_gas", &CaseConfig::trapped_gas, trapped_gas_codec(), "ambient gas that liquid encloses"),
       required("time", &CaseConfig::time, time_codec(), "end of the run and time step"),
       defaulted("solver", &CaseConfig::solver, solver_codec(), "settings of the numerical method"),
       defaulted("output", &CaseConfig::output, output_codec(), "what is written, where and when"),

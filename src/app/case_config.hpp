@@ -11,6 +11,7 @@
 #include "core/boundary.hpp"
 #include "core/grid.hpp"
 #include "core/units.hpp"
+#include "physics/gas_regions.hpp"
 #include "physics/solver_settings.hpp"
 #include "physics/species.hpp"
 
@@ -64,6 +65,14 @@ struct InitialFill {
   Vec<3> velocity;
 };
 
+/// A bubble of adiabatic gas at the start: a ball, or a disc in planar cases, cut out of the liquid.
+struct InitialBubble {
+  Vec<3> center;
+  double radius = 0;
+  double pressure = 0;
+  double adiabatic_exponent = 1.4;
+};
+
 /// End of the run and size of its steps: either fixed, or by the CFL number with an upper limit.
 struct TimeSettings {
   double end = 0;
@@ -96,6 +105,8 @@ struct CaseConfig {
   double ambient_pressure = 0;
   std::vector<Species> species;
   std::vector<InitialFill> initial;
+  std::vector<InitialBubble> bubbles;
+  TrappedGas trapped_gas;
   TimeSettings time;
   SolverSettings solver;
   OutputSettings output;

@@ -49,6 +49,15 @@ std::string law_text(const Law& law) {
   return std::visit(Printer{}, law);
 }
 
+std::string bubbles_text(const CaseConfig& config) {
+  std::ostringstream out;
+  for (const InitialBubble& b : config.bubbles) {
+    out << "bubble         radius " << shortest(b.radius) << ", pressure " << shortest(b.pressure)
+        << ", adiabatic exponent " << shortest(b.adiabatic_exponent) << "\n";
+  }
+  return out.str();
+}
+
 template <int Dim>
 struct InitialState {
   Grid<Dim> grid;
@@ -66,6 +75,9 @@ InitialState<Dim> fill_cells(const CaseConfig& config) {
     CellField phi(state.grid.layout());
     for_each_indexed<Cell>(state.grid.layout(), cells, [&](Cell c, const Index<Dim>& i) {
       phi[c] = fraction(fill.shape, state.grid, i);
+      for (const InitialBubble& bubble : config.bubbles) {
+        phi[c] *= 1 - fraction(SphereShape{bubble.center, bubble.radius}, state.grid, i);
+      }
       state.liquid[c] += phi[c];
     });
     state.volumes.push_back(
@@ -159,7 +171,7 @@ std::string report(const CaseConfig& config) {
       << "cells          " << cells_text(config.grid) << "\n"
       << "smallest cell  " << brief(smallest_width(config.grid)) << "\n"
       << "memory         about " << brief(needed_memory(config)) << " MB\n"
-      << species_text<Dim>(config) << "end of run     " << shortest(config.time.end) << "\n"
+      << species_text<Dim>(config) << bubbles_text(config) << "end of run     " << shortest(config.time.end) << "\n"
       << "time step      " << time_step_text<Dim>(config) << "\n"
       << "output folder  " << config.output.directory << "\n";
   return out.str();
@@ -175,6 +187,34 @@ bool liquid_near(const InitialState<Dim>& state, int d, int side) {
     layer.lo[d] = std::max(layer.lo[d], layer.hi[d] - least_air_cells);
   }
   return maximum<Cell>(state.grid.layout(), layer, 0.0, [&](Cell c) { return state.liquid[c]; }) > 0;
+}
+
+/// Bubbles of a radius of fewer cells are not resolved.
+constexpr int least_bubble_cells = 4;
+
+/// Width of the widest cell along any axis that a bubble's middle lies in or beside.
+template <int Dim>
+double width_around(const Grid<Dim>& grid, const InitialBubble& bubble) {
+  const Vec<Dim> center = in_axes<Dim>(bubble.center);
+  double widest = 0;
+  for (int d = 0; d < Dim; ++d) {
+    int i = 0;
+    while (i + 1 < grid.owned_cells()[d] && grid.face_position(d, i + 1) < center[d]) ++i;
+    widest = std::max(widest, grid.width_1d(d, i));
+  }
+  return widest;
+}
+
+template <int Dim>
+std::vector<std::string> bubble_warnings(const CaseConfig& config, const Grid<Dim>& grid) {
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < config.bubbles.size(); ++i) {
+    const double cells = config.bubbles[i].radius / width_around(grid, config.bubbles[i]);
+    if (cells >= least_bubble_cells) continue;
+    found.push_back("bubbles[" + std::to_string(i) + "]: the radius is " + brief(cells) + " cells; fewer than " +
+                    std::to_string(least_bubble_cells) + " do not resolve it");
+  }
+  return found;
 }
 
 template <int Dim>
@@ -194,6 +234,7 @@ std::vector<std::string> warnings(const CaseConfig& config) {
                                   [&](const InitialFill& fill) { return fill.fill == species.name; });
     if (!used) found.push_back("species " + species.name + " is not present at the start");
   }
+  for (std::string& text : bubble_warnings(config, state.grid)) found.push_back(std::move(text));
   const Sides<Dim> sides = make_sides<Dim>(config);
   const char* axes = Dim == 3 ? "xyz" : "xz";
   for (int d = 0; d < Dim; ++d) {

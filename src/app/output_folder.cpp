@@ -15,7 +15,9 @@ namespace fs = std::filesystem;
 /// Whether a run writes files of that name.
 bool is_result(const fs::path& file) {
   const std::string name = file.filename().string();
-  if (name == "case.yaml" || name == "summary.json" || name == "history.csv" || name == "fields.xdmf") return true;
+  for (const char* table : {"case.yaml", "summary.json", "history.csv", "bubbles.csv", "events.csv", "fields.xdmf"}) {
+    if (name == table) return true;
+  }
   return file.extension() == ".h5" &&
          (name.starts_with("fields_") || name.starts_with("failed_fields_") || name.starts_with("checkpoint_"));
 }

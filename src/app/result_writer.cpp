@@ -10,11 +10,26 @@ namespace {
 std::vector<std::string> history_columns(const CaseConfig& config) {
   std::vector<std::string> columns = {"step", "time", "dt"};
   for (const Species& s : config.species) columns.push_back("volume_" + s.name);
-  for (const char* name :
-       {"kinetic_energy", "potential_energy", "max_speed", "max_speed_liquid", "height_axis", "height_max",
-        "radius_base", "redistribution_energy_change", "projection_energy_change", "iterations_mac_projection",
-        "iterations_redistribute_volume", "iterations_redistribute_momentum", "iterations_diffusion",
-        "iterations_diffusion_linear", "iterations_projection"}) {
+  for (const char* name : {"kinetic_energy",
+                           "potential_energy",
+                           "max_speed",
+                           "max_speed_liquid",
+                           "height_axis",
+                           "height_max",
+                           "radius_base",
+                           "bubbles",
+                           "bubble_volume",
+                           "bubble_pressure",
+                           "bubble_z",
+                           "redistribution_energy_change",
+                           "projection_energy_change",
+                           "gas_work",
+                           "iterations_mac_projection",
+                           "iterations_redistribute_volume",
+                           "iterations_redistribute_momentum",
+                           "iterations_diffusion",
+                           "iterations_diffusion_linear",
+                           "iterations_projection"}) {
     columns.emplace_back(name);
   }
   return columns;
@@ -45,6 +60,7 @@ ResultWriter<Dim>::ResultWriter(const CaseConfig& config, std::filesystem::path 
     : config_(config), folder_(std::move(folder)), series_(folder_) {
   write_text_file(folder_ / "case.yaml", to_yaml(config));
   if (config.output.history) history_.emplace(folder_ / "history.csv", history_columns(config));
+  if (config.output.history && (!config.bubbles.empty() || config.trapped_gas.adiabatic)) bubbles_.emplace(folder_);
 }
 
 template <int Dim>
@@ -66,6 +82,7 @@ FieldSnapshot ResultWriter<Dim>::snapshot(const Flow<Dim>& flow) const {
   add("density", flow.density());
   s.fields.push_back({"velocity", Dim, owned_values(grid, state.u)});
   add("pressure", cell_pressure(grid, state.pressure));
+  add("gas_region", gas_region_field(flow));
   const StressFields stress = evaluate_stress(flow);
   add("viscosity", stress.viscosity);
   add("stress_magnitude", stress.magnitude);
@@ -97,14 +114,31 @@ void ResultWriter<Dim>::append_history(const Flow<Dim>& flow, const Diagnostics&
   line.insert(line.end(), diagnostics.volume.begin(), diagnostics.volume.end());
   int obstacle = 0;
   for (const ObstacleReport& o : report.obstacle) obstacle += o.iterations;
-  line.insert(
-      line.end(),
-      {diagnostics.kinetic_energy, diagnostics.potential_energy, diagnostics.max_speed, diagnostics.max_speed_liquid,
-       diagnostics.height_axis, diagnostics.height_max, diagnostics.radius_base, report.redistribution_energy_change,
-       report.projection_energy_change, static_cast<double>(report.mac.iterations), static_cast<double>(obstacle),
-       static_cast<double>(report.momentum.iterations), static_cast<double>(report.diffusion.iterations),
-       static_cast<double>(report.diffusion.linear_iterations), static_cast<double>(report.projection.iterations)});
+  const std::vector<BubbleMeasures<Dim>> bubbles = measure_bubbles(flow);
+  BubbleMeasures<Dim> largest{};
+  for (const BubbleMeasures<Dim>& b : bubbles) largest = b.volume > largest.volume ? b : largest;
+  line.insert(line.end(), {diagnostics.kinetic_energy,
+                           diagnostics.potential_energy,
+                           diagnostics.max_speed,
+                           diagnostics.max_speed_liquid,
+                           diagnostics.height_axis,
+                           diagnostics.height_max,
+                           diagnostics.radius_base,
+                           static_cast<double>(bubbles.size()),
+                           largest.volume,
+                           largest.pressure,
+                           largest.centroid[Dim - 1],
+                           report.redistribution_energy_change,
+                           report.projection_energy_change,
+                           report.gas_work,
+                           static_cast<double>(report.mac.iterations),
+                           static_cast<double>(obstacle),
+                           static_cast<double>(report.momentum.iterations),
+                           static_cast<double>(report.diffusion.iterations),
+                           static_cast<double>(report.diffusion.linear_iterations),
+                           static_cast<double>(report.projection.iterations)});
   history_->append(line);
+  if (bubbles_) bubbles_->append(state, bubbles, report.gas, full_circle(flow.domain().grid));
 }
 
 template <int Dim>

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/bubble_writer.hpp"
 #include "app/case_config.hpp"
 #include "core/snapshot.hpp"
 #include "core/text_output.hpp"
@@ -24,7 +25,7 @@ class ResultWriter {
   std::filesystem::path write_fields(const Flow<Dim>& flow);
   /// The current state under a name of its own, for looking at what went wrong. \throws FileError
   std::filesystem::path write_failed_state(const Flow<Dim>& flow);
-  /// One line of `history.csv`. \throws FileError
+  /// One line of `history.csv`, and those of `bubbles.csv` and `events.csv`. \throws FileError
   void append_history(const Flow<Dim>& flow, const Diagnostics& diagnostics, const StepReport& report);
   /// `summary.json`. \throws FileError
   void write_summary(const Json& summary);
@@ -36,6 +37,7 @@ class ResultWriter {
   std::filesystem::path folder_;
   XdmfSeries series_;
   std::optional<CsvWriter> history_;
+  std::optional<BubbleWriter<Dim>> bubbles_;  ///< where there can be bubbles
 };
 
 }  // namespace quicksand

@@ -31,14 +31,15 @@ std::vector<double> volumes_with_escaped(const Flow<Dim>& flow) {
   return volume;
 }
 
-/// What changes of energy are compared with: kinetic energy, and what the whole mass gains falling through the domain,
-/// sum of mass |g_d| length_d. Per radian in axisymmetric flows.
+/// What changes of energy are compared with: kinetic energy, internal energy of the bubbles, and what the whole mass
+/// gains falling through the domain, sum of mass |g_d| length_d. Per radian in axisymmetric flows.
 template <int Dim>
 double energy_scale(const Flow<Dim>& flow) {
   const Grid<Dim>& grid = flow.domain().grid;
   const double mass =
       sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return flow.density()[c] * grid.volume(c); });
   double scale = kinetic_energy(grid, flow.density(), flow.state().u);
+  for (const Bubble& b : flow.state().gas.bubbles) scale += b.pressure * b.volume / (b.exponent - 1);
   for (int d = 0; d < Dim; ++d) {
     const std::vector<double>& faces = grid.global_faces(d);
     scale += mass * std::abs(flow.parameters().gravity[d]) * (faces.back() - faces.front());
@@ -97,6 +98,9 @@ bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
   run.statistics.add(report, volumes_with_escaped(flow), state.time);
   run.is_steady = run.steady.reached(report, state.time);
   run.writer.append_history(flow, diagnose(flow), report);
+  for (const GasEvent& event : report.gas) {
+    run.progress.say(event_text(event, state.time, full_circle(flow.domain().grid)));
+  }
   run.progress.step(state.time, state.step, state.dt);
   const bool due = run.control.output_due(state.time);
   if (due) write_fields(flow, run);

@@ -50,7 +50,7 @@ void RunStatistics::add(const StepReport& report, const std::vector<double>& vol
   }
   if (energy_scale_ > 0) {
     redistribution_rise_ = std::max(redistribution_rise_, report.redistribution_energy_change / energy_scale_);
-    projection_rise_ = std::max(projection_rise_, report.projection_energy_change / energy_scale_);
+    projection_rise_ = std::max(projection_rise_, (report.projection_energy_change - report.gas_work) / energy_scale_);
   }
   const auto iterations = iterations_of(report);
   for (std::size_t k = 0; k < phase_names.size(); ++k) {

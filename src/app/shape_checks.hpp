@@ -10,4 +10,8 @@ namespace quicksand {
 /// the geometry forbids.
 void check_initial(const CaseConfig& config, Reading& reading);
 
+/// Notes bubbles that reach beyond the grid, touch a wall or an open side, do not lie in liquid, overlap, or are off
+/// the axis of an axisymmetric case.
+void check_bubbles(const CaseConfig& config, Reading& reading);
+
 }  // namespace quicksand

@@ -168,11 +168,17 @@ void CsvWriter::open() {
 }
 
 void CsvWriter::append(std::span<const double> values) {
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(number_text(value));
+  append_text(texts);
+}
+
+void CsvWriter::append_text(std::span<const std::string> values) {
   assert(values.size() == columns_.size());
   std::string line;
-  for (const double value : values) {
+  for (const std::string& value : values) {
     if (!line.empty()) line += ',';
-    line += number_text(value);
+    line += value;
   }
   out_ << line << '\n' << std::flush;
   if (!out_) throw FileError(path_.string() + ": cannot write");

@@ -73,6 +73,8 @@ class CsvWriter {
   const std::vector<std::string>& columns() const { return columns_; }
   /// Adds one line. \pre one value per column \throws FileError
   void append(std::span<const double> values);
+  /// Adds one line of texts that need no quotes. \pre one per column \throws FileError
+  void append_text(std::span<const std::string> values);
 
  private:
   void open();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "physics/energy.hpp"
 
@@ -97,7 +96,7 @@ double species_volume(const Grid<Dim>& grid, const CellField& phi) {
 template <int Dim>
 Diagnostics diagnose(const Flow<Dim>& flow) {
   const Grid<Dim>& grid = flow.domain().grid;
-  const double circle = grid.axisymmetric() ? 2 * std::numbers::pi : 1.0;
+  const double circle = full_circle(grid);
   Diagnostics result;
   for (const CellField& phi : flow.state().phi) result.volume.push_back(circle * species_volume(grid, phi));
   result.kinetic_energy = circle * kinetic_energy(grid, flow.density(), flow.state().u);

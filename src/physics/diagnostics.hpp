@@ -1,6 +1,7 @@
 #pragma once
 /// \file
 /// What is measured of a flow after every step.
+#include <numbers>
 #include <vector>
 
 #include "physics/flow.hpp"
@@ -19,6 +20,12 @@ struct Diagnostics {
   double height_max = 0;        ///< top of the highest cell with sum phi >= 0.5
   double radius_base = 0;       ///< where liquid ends along the lowest row of cells, going outwards
 };
+
+/// Volume over one radian to that of the whole circle: 2 pi in axisymmetric flows, else 1.
+template <int Dim>
+double full_circle(const Grid<Dim>& grid) {
+  return grid.axisymmetric() ? 2 * std::numbers::pi : 1.0;
+}
 
 /// Measures the flow. The axis column is the one at x = x_min if that side is an axis or symmetry plane, else the
 /// middle one (the same for y); the lowest row runs through it.

@@ -68,9 +68,10 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       redistribution_(domain_, parameters_.species),
       diffusion_(domain_, parameters_.species),
       projection_(domain_.layout()),
+      gas_labels_(domain_.layout()),
+      gas_pressure_(domain_.layout()),
       outer_pressure_(domain_.layout(), parameters_.ambient_pressure) {
   state_.pressure.fill(parameters_.ambient_pressure);
-  set_open_pressures(domain_, outer_pressure_);
 }
 
 template <int Dim>
@@ -80,6 +81,7 @@ void Flow<Dim>::refresh() {
   sum_fractions(grid, state_.phi, total_);
   mix_density(grid, parameters_.species, state_.phi, rho_);
   mark_liquid(grid, total_, parameters_.liquid_threshold, liquid_);
+  hold_open(state_.gas, liquid_);
   clear_without_mass(grid, rho_, state_.u);
   fill_velocity_ghosts(domain_, state_.u);
   fill_acceleration_ghosts(grid, domain_.sides, state_.acceleration);
@@ -88,6 +90,12 @@ void Flow<Dim>::refresh() {
 template <int Dim>
 void Flow<Dim>::initialize() {
   refresh();
+  if (has_bubbles(gas_parameters(), state_.gas)) {
+    start_gas(domain_, gas_parameters(), total_, gas_labels_, state_.gas);
+    hold_open(state_.gas, liquid_);
+  }
+  gas_pressure_on_nodes(domain_, gas_parameters(), state_.gas, liquid_, false, gas_pressure_, outer_pressure_);
+  set_open_pressures(domain_, outer_pressure_);
   mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
   // The pressure that balances gravity as the velocities stand: what is at rest stays so from the first step on.
   const Grid<Dim>& grid = domain_.grid;
@@ -158,6 +166,13 @@ StepReport Flow<Dim>::step(double dt) {
   sum_fractions(grid, next_.phi, next_total_);
   mix_density(grid, par.species, next_.phi, next_rho_);
   mark_liquid(grid, next_total_, par.liquid_threshold, next_liquid_);
+  next_.gas.bubbles.clear();
+  if (has_bubbles(gas_parameters(), state_.gas)) {
+    report.gas = advance_gas(domain_, gas_parameters(), state_.gas, total_, next_total_, dt, gas_labels_, next_.gas);
+    hold_open(next_.gas, next_liquid_);
+  }
+  gas_pressure_on_nodes(domain_, gas_parameters(), next_.gas, next_liquid_, true, gas_pressure_, outer_pressure_);
+  set_open_pressures(domain_, outer_pressure_);
   clock(Phase::redistribute_volume);
   report.momentum = redistribute_momentum(domain_, momentum_tilde_, next_rho_, par.momentum, redistribution_, u_bar_);
   report.redistribution_energy_change = kinetic_energy(grid, next_rho_, u_bar_) - energy_tilde;
@@ -180,6 +195,7 @@ StepReport Flow<Dim>::step(double dt) {
   const double energy_star = kinetic_energy(grid, next_rho_, u_star);
   report.projection = solve_pressure(domain_, Projected::velocity, u_star, next_rho_, next_liquid_, outer_pressure_, dt,
                                      par.linear, projection_, next_.pressure);
+  report.gas_work = gas_work(domain_, u_star, next_rho_, next_liquid_, dt, projection_);
   add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, -dt, next_.u);
   report.projection_energy_change = kinetic_energy(grid, next_rho_, next_.u) - energy_star;
   scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, u_bar_, next_.acceleration);

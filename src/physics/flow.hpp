@@ -22,6 +22,7 @@ struct FlowParameters {
   Vec<Dim> gravity;  ///< acceleration vector, downwards along the last axis as a rule
   double ambient_pressure = 0;
   double liquid_threshold = 0.95;           ///< eps of D = {sum phi >= 1 - eps}
+  TrappedGas trapped_gas;                   ///< what becomes of ambient gas that liquid encloses
   SolveOptions linear{{.relative = 1e-9}};  ///< both projections
   SolveOptions momentum{{.relative = 1e-13},
                         Method::jacobi};  ///< momentum redistribution; cheap, and energy hangs on it
@@ -45,6 +46,8 @@ struct StepReport {
   double projection_energy_change = 0;      ///< kinetic energy of u^{n+1} less that of (52)
   double momentum_norm = 0;                 ///< sqrt(sum V rho |u^{n+1}|^2)
   double momentum_change = 0;               ///< sqrt(sum V rho |u^{n+1} - u^n|^2) / dt
+  double gas_work = 0;                      ///< what gas at different pressures has done in the projection
+  std::vector<GasEvent> gas;                ///< what happened to the bubbles
 };
 
 /// A flow on one grid: its state and the work arrays of its phases.
@@ -64,6 +67,11 @@ class Flow {
   const CellField& total() const { return total_; }
   const CellField& density() const { return rho_; }
   const CellMask& liquid() const { return liquid_; }
+  /// Regions of gas, where there are bubbles.
+  const GasLabels& gas_labels() const { return gas_labels_; }
+  GasParameters gas_parameters() const {
+    return {parameters_.ambient_pressure, parameters_.liquid_threshold, parameters_.trapped_gas};
+  }
   /// Dual mesh and the rheology of its elements in the current state.
   const StressElements<Dim>& stress_elements() const { return diffusion_.elements; }
 
@@ -98,6 +106,8 @@ class Flow {
   RedistributionWork<Dim> redistribution_;
   DiffusionWork<Dim> diffusion_;
   ProjectionWork<Dim> projection_;
+  GasLabels gas_labels_;
+  CellField gas_pressure_;    ///< of gas cells
   NodeField outer_pressure_;  ///< of the gas around each node
 };
 

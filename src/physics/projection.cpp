@@ -106,7 +106,7 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
   const Layout<Dim>& layout = domain.layout();
   const PairTable<Dim> pairs(work.matrix);
   const NodeMask& free = work.free;
-  // One layer more: couplings of rows around the box count in row sums.
+  // One layer more: rows reach couplings of the nodes around the box, which may be left from another box.
   for_each<Node>(layout, grow(work.matrix.box, 1), [&](Node n) {
     work.matrix.diagonal[n] = free[n] ? 0.0 : 1.0;
     for (auto& lower : work.matrix.lower) lower[n] = 0;
@@ -217,10 +217,35 @@ SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const Cell
     require_converged(report, "pressure projection");
     for_each<Node>(domain.layout(), work.matrix.box, [&](Node n) {
       if (work.free[n]) pressure[n] = reference + work.increment[n];
+      work.increment[n] = pressure[n] - reference;  // the solve leaves 0 on given nodes
     });
   }
   wrap(domain.layout(), nodes, pressure);
   return report;
+}
+
+template <int Dim>
+double gas_work(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, const CellField& rho,
+                const CellMask& liquid, double dt, ProjectionWork<Dim>& work) {
+  using C = Corners<Dim>;
+  const Grid<Dim>& grid = domain.grid;
+  const C corners(domain.layout());
+  const Box<Dim> nodes = grid.nodes();
+  for_each<Node>(domain.layout(), nodes, [&](Node n) { work.rhs[n] = 0; });
+  for_each_coloured<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+    if (!liquid[c]) return;
+    for (int a = 0; a < C::count; ++a) {
+      const Node na = low_node(c) + corners.step[a];
+      if (work.free[na] || work.increment[na] == 0) continue;
+      double outflow = 0;
+      for (int d = 0; d < Dim; ++d) outflow += grid.volume(c) * u_bar_star[d][c] * mean_gradient(grid, i, a, d);
+      for (int b = 0; b < C::count; ++b) {
+        outflow -= dt / rho[c] * stiffness(grid, i, a, b) * work.increment[low_node(c) + corners.step[b]];
+      }
+      work.rhs[na] += outflow;
+    }
+  });
+  return -dt * sum<Node>(domain.layout(), nodes, [&](Node n) { return work.rhs[n] * work.increment[n]; });
 }
 
 #define QUICKSAND_INSTANTIATE(Dim)                                                                                     \
@@ -229,7 +254,9 @@ SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const Cell
   template void set_open_pressures(const Domain<Dim>&, NodeField&);                                                    \
   template SolveReport solve_pressure(const Domain<Dim>&, Projected, const CellVectors<Dim>&, const CellField&,        \
                                       const CellMask&, const NodeField&, double, const SolveOptions&,                  \
-                                      ProjectionWork<Dim>&, NodeField&);
+                                      ProjectionWork<Dim>&, NodeField&);                                               \
+  template double gas_work(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&, const CellMask&, double,     \
+                           ProjectionWork<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

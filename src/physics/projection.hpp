@@ -47,4 +47,11 @@ SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const Cell
                            const CellField& rho, const CellMask& liquid, const NodeField& outer_pressure, double dt,
                            const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure);
 
+/// Work that the gas does on the liquid in the projection just solved: minus dt times the sum over the given nodes of
+/// their pressure times the volume that leaves D there, r = sum V u-bar* . grad N - dt K P. Kinetic energy grows by at
+/// most that much. \param work  as solve_pressure() left it
+template <int Dim>
+double gas_work(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, const CellField& rho,
+                const CellMask& liquid, double dt, ProjectionWork<Dim>& work);
+
 }  // namespace quicksand

@@ -107,11 +107,35 @@ const Mistake value_mistakes[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Values, ConfigMistake, testing::ValuesIn(value_mistakes));
 
+/// Replaces the line of the time settings by a bubble in line 26 and the time.
+std::string bubble(const std::string& keys, const std::string& more = "") {
+  return "bubbles:\n  - {" + keys + "}\n" + more + "time: {";
+}
+
+const Mistake bubble_mistakes[] = {
+    {"time: {", bubble("center: [0, 0.5], radius: 0.1, pressure: 2, adiabatic_exponent: 1"), "26:70",
+     "bubbles[0].adiabatic_exponent", "must be greater than 1, not 1"},
+    {"time: {", bubble("center: [0, 0.5], radius: 0.1, pressure: 2"), "26:5", "bubbles[0].adiabatic_exponent",
+     "is required but missing"},
+    {"time: {", bubble("center: [0.1, 0.5], radius: 0.1, pressure: 2, adiabatic_exponent: 1.4"), "26:14",
+     "bubbles[0].center", "must lie on the axis"},
+    {"time: {", bubble("center: [0, 0.2], radius: 0.2, pressure: 2, adiabatic_exponent: 1.4"), "26:5", "bubbles[0]",
+     "reaches beyond the grid"},
+    {"time: {", bubble("center: [0, 0.95], radius: 0.1, pressure: 2, adiabatic_exponent: 1.4"), "26:5", "bubbles[0]",
+     "must lie in liquid"},
+    {"time: {",
+     bubble("center: [0, 0.5], radius: 0.1, pressure: 2, adiabatic_exponent: 1.4",
+            "  - {center: [0, 0.6], radius: 0.1, pressure: 2, adiabatic_exponent: 1.4}\n"),
+     "27:5", "bubbles[1]", "overlaps bubbles[0] (case.yaml:26:5)"},
+    {"time: {", "trapped_gas: {adiabatic: maybe}\ntime: {", "25:26", "trapped_gas.adiabatic", "true"},
+};
+INSTANTIATE_TEST_SUITE_P(Bubbles, ConfigMistake, testing::ValuesIn(bubble_mistakes));
+
 const Mistake key_mistakes[] = {
     {"ambient_pressure", "ambient_presure", "14:1", "ambient_presure", "did you mean 'ambient_pressure'?"},
     {"geometry: axi", "colour: red\n  geometry: axi", "5:3", "grid.colour",
      "allowed keys are dimension, geometry, x, y, z"},
-    {"gravity: 1.0", "gravity: 1.0\nbubbles: []", "14:1", "bubbles", "unknown key"},
+    {"gravity: 1.0", "gravity: 1.0\nbubble: []", "14:1", "bubble", "unknown key"},
     {"gravity: 1.0", "gravity: 1.0\ngravity: 2.0", "14:1", "gravity", "given twice; first in line 13"},
     {"viscosity: 0.01", "viscosity: 0.01, yield_stress: 1", "21:49", "species[1].rheology.yield_stress",
      "unknown key for 'newtonian'; allowed keys are law, viscosity"},
