@@ -7,33 +7,6 @@ namespace quicksand {
 
 namespace {
 
-/// The 2^Dim corners of a cell: corner k lies on the high side of axis d if bit d of k is set.
-template <int Dim>
-struct Corners {
-  static constexpr int count = 1 << Dim;
-  Step step[count];
-
-  explicit Corners(const Layout<Dim>& layout) {
-    for (int k = 0; k < count; ++k) {
-      step[k] = {};
-      for (int d = 0; d < Dim; ++d) {
-        if (bit(k, d)) step[k] = step[k] + layout.step(d);
-      }
-    }
-  }
-  static constexpr int bit(int k, int d) { return (k >> d) & 1; }
-};
-
-/// Element mean of dN_k/dx_d in a cell for all corners k.
-template <int Dim>
-double mean_gradient(const Grid<Dim>& grid, const Index<Dim>& i, int k, int d) {
-  double g = (Corners<Dim>::bit(k, d) ? 1 : -1) / grid.width_1d(d, i[d]);
-  for (int e = 0; e < Dim; ++e) {
-    if (e != d) g *= grid.line_element(e, i[e]).fraction[Corners<Dim>::bit(k, e)];
-  }
-  return g;
-}
-
 /// Integral of grad N_a . grad N_b over a cell.
 template <int Dim>
 double stiffness(const Grid<Dim>& grid, const Index<Dim>& i, int a, int b) {
@@ -67,20 +40,6 @@ struct PairTable {
   }
 };
 
-/// A node is solved for if all cells around it, in the domain or mirrored, are liquid, and none beyond an open side.
-template <int Dim>
-void mark_free_nodes(const Domain<Dim>& domain, const CellMask& liquid, NodeMask& free) {
-  const Corners<Dim> corners(domain.layout());
-  for_each<Node>(domain.layout(), domain.grid.nodes(), [&](Node n) {
-    bool all = true;
-    for (int k = 0; k < Corners<Dim>::count; ++k) {
-      const Cell c = high_cell(n) - corners.step[k];
-      all = all && liquid[c] && domain.beyond[c] != Beyond::open;
-    }
-    free[n] = all ? 1 : 0;
-  });
-}
-
 /// The least pressure given at a node, 0 if there is none. The solver's relative tolerance is to mean differences of
 /// pressure, not their height above zero.
 template <int Dim>
@@ -93,13 +52,13 @@ double least_given(const Domain<Dim>& domain, const NodeMask& free, const NodeFi
 
 /// Matrix dt K on the free nodes, and the right-hand side sum V u-bar* . grad N less what the given nodes contribute.
 template <int Dim>
-void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellField& rho, const CellMask& liquid,
-              double dt, const NodeField& increment, ProjectionWork<Dim>& work) {
+void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellField& rho,
+              const PressureElements<Dim>& elements, double dt, const NodeField& increment, ProjectionWork<Dim>& work) {
   using C = Corners<Dim>;
   const Grid<Dim>& grid = domain.grid;
   const C corners(domain.layout());
   const PairTable<Dim> pairs(work.matrix);
-  const NodeMask& free = work.free;
+  const NodeMask& free = elements.free;
   for_each<Node>(domain.layout(), work.matrix.box, [&](Node n) {
     work.matrix.diagonal[n] = free[n] ? 0.0 : 1.0;
     for (auto& lower : work.matrix.lower) lower[n] = 0;
@@ -108,17 +67,23 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
   Box<Dim> cells = work.matrix.box;
   for (int d = 0; d < Dim; ++d) --cells.lo[d];
   for_each_coloured<Cell>(domain.layout(), intersect(cells, grid.cells()), [&](Cell c, const Index<Dim>& i) {
-    if (!liquid[c]) return;
+    if (!elements.bears[c]) return;
     const double scale = dt / rho[c];
+    const double volume = grid.volume(c);
+    const MeanGradient<Dim> g = elements.gradient(grid, corners, c, i);
+    const MeanGradient<Dim> even = even_gradient(grid, i);
     const Node origin = low_node(c);
     for (int a = 0; a < C::count; ++a) {
       const Node na = origin + corners.step[a];
       if (!free[na]) continue;
       double source = 0;
-      for (int d = 0; d < Dim; ++d) source += grid.volume(c) * u[d][c] * mean_gradient(grid, i, a, d);
+      for (int d = 0; d < Dim; ++d) source += volume * u[d][c] * g.at[a][d];
       for (int b = 0; b < C::count; ++b) {
         const Node nb = origin + corners.step[b];
-        const double k = scale * stiffness(grid, i, a, b);
+        // The levers change the mean gradient; what the stiffness holds beyond it stays.
+        double k = stiffness(grid, i, a, b);
+        for (int d = 0; d < Dim; ++d) k += volume * (g.at[a][d] * g.at[b][d] - even.at[a][d] * even.at[b][d]);
+        k *= scale;
         if (a == b) work.matrix.diagonal[na] += k;
         if (a > b && free[nb]) work.matrix.lower[pairs.offset[a][b]][na] += k;
         if (!free[nb]) source -= k * increment[nb];
@@ -130,7 +95,7 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
 
 /// What comes in through inflow sides: -integral of N u . n over them, on the right-hand side.
 template <int Dim>
-void add_inflow(const Domain<Dim>& domain, const CellMask& liquid, ProjectionWork<Dim>& work) {
+void add_inflow(const Domain<Dim>& domain, const PressureElements<Dim>& elements, ProjectionWork<Dim>& work) {
   using C = Corners<Dim>;
   const Grid<Dim>& grid = domain.grid;
   const C corners(domain.layout());
@@ -140,7 +105,7 @@ void add_inflow(const Domain<Dim>& domain, const CellMask& liquid, ProjectionWor
       for_each_coloured<Face>(domain.layout(), intersect(domain.side_faces(d, s), grid.faces(d)),
                               [&](Face f, const Index<Dim>& i) {
                                 const Cell inner = s == 0 ? high_cell(f) : high_cell(f) - grid.step(d);
-                                if (!liquid[inner]) return;
+                                if (!elements.bears[inner]) return;
                                 const double u = domain.side_velocities.at(d, s, grid.centre(i))[d];
                                 const double inwards = (s == 0 ? u : -u) * grid.area(d, f);
                                 for (int k = 0; k < C::count; ++k) {
@@ -150,7 +115,7 @@ void add_inflow(const Domain<Dim>& domain, const CellMask& liquid, ProjectionWor
                                     if (e != d) part *= grid.line_element(e, i[e]).fraction[C::bit(k, e)];
                                   }
                                   const Node n = Node{f.n} + corners.step[k];
-                                  if (work.free[n]) work.rhs[n] += part;
+                                  if (elements.free[n]) work.rhs[n] += part;
                                 }
                               });
     }
@@ -175,14 +140,15 @@ void set_open_pressures(const Domain<Dim>& domain, NodeField& outer_pressure) {
 
 template <int Dim>
 void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure, const CellField& rho,
-                           const CellMask& liquid, double factor_dt, CellVectors<Dim>& u) {
+                           const PressureElements<Dim>& elements, double factor_dt, CellVectors<Dim>& u) {
   const Corners<Dim> corners(domain.layout());
   for_each_indexed<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c, const Index<Dim>& i) {
-    if (!liquid[c]) return;
+    if (!elements.bears[c]) return;
+    const MeanGradient<Dim> g = elements.gradient(domain.grid, corners, c, i);
     for (int d = 0; d < Dim; ++d) {
       double gradient = 0;
       for (int k = 0; k < Corners<Dim>::count; ++k) {
-        gradient += mean_gradient(domain.grid, i, k, d) * pressure[low_node(c) + corners.step[k]];
+        gradient += g.at[k][d] * pressure[low_node(c) + corners.step[k]];
       }
       u[d][c] += factor_dt / rho[c] * gradient;
     }
@@ -191,33 +157,32 @@ void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure,
 
 template <int Dim>
 SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const CellVectors<Dim>& u_bar_star,
-                           const CellField& rho, const CellMask& liquid, const NodeField& outer_pressure, double dt,
-                           const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure) {
+                           const CellField& rho, const PressureElements<Dim>& elements, const NodeField& outer_pressure,
+                           double dt, const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure) {
   const Box<Dim> nodes = domain.grid.nodes();
-  mark_free_nodes(domain, liquid, work.free);
-  const double reference = least_given(domain, work.free, outer_pressure);
+  const double reference = least_given(domain, elements.free, outer_pressure);
   for_each<Node>(domain.layout(), nodes, [&](Node n) {
-    if (!work.free[n]) pressure[n] = outer_pressure[n];
+    if (!elements.free[n]) pressure[n] = outer_pressure[n];
     work.increment[n] = pressure[n] - reference;
   });
-  work.matrix.box = bounding_box<Node>(domain.layout(), nodes, [&](Node n) { return work.free[n] != 0; });
+  work.matrix.box = bounding_box<Node>(domain.layout(), nodes, [&](Node n) { return elements.free[n] != 0; });
   if (work.matrix.box.empty()) return {.converged = true};
-  assemble(domain, u_bar_star, rho, liquid, dt, work.increment, work);
-  if (what == Projected::velocity) add_inflow(domain, liquid, work);
+  assemble(domain, u_bar_star, rho, elements, dt, work.increment, work);
+  if (what == Projected::velocity) add_inflow(domain, elements, work);
   const SolveReport report = solve(work.matrix, work.rhs, work.increment, options);
   require_converged(report, "pressure projection");
   for_each<Node>(domain.layout(), work.matrix.box, [&](Node n) {
-    if (work.free[n]) pressure[n] = reference + work.increment[n];
+    if (elements.free[n]) pressure[n] = reference + work.increment[n];
   });
   return report;
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                                     \
-  template void add_pressure_gradient(const Domain<Dim>&, const NodeField&, const CellField&, const CellMask&, double, \
-                                      CellVectors<Dim>&);                                                              \
-  template void set_open_pressures(const Domain<Dim>&, NodeField&);                                                    \
-  template SolveReport solve_pressure(const Domain<Dim>&, Projected, const CellVectors<Dim>&, const CellField&,        \
-                                      const CellMask&, const NodeField&, double, const SolveOptions&,                  \
+#define QUICKSAND_INSTANTIATE(Dim)                                                                                 \
+  template void add_pressure_gradient(const Domain<Dim>&, const NodeField&, const CellField&,                      \
+                                      const PressureElements<Dim>&, double, CellVectors<Dim>&);                    \
+  template void set_open_pressures(const Domain<Dim>&, NodeField&);                                                \
+  template SolveReport solve_pressure(const Domain<Dim>&, Projected, const CellVectors<Dim>&, const CellField&,    \
+                                      const PressureElements<Dim>&, const NodeField&, double, const SolveOptions&, \
                                       ProjectionWork<Dim>&, NodeField&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
