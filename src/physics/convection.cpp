@@ -93,18 +93,6 @@ void impose_inflow(const Domain<Dim>& domain, FaceScalars<Dim>& u_mac) {
   }
 }
 
-/// Planes of the species' nested regions: plane i bounds species 0 ... i together, the last one is the liquid's
-/// surface.
-template <int Dim>
-void reconstruct_planes(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, ConvectionWork<Dim>& work) {
-  for (std::size_t i = 0; i < in.phi.size(); ++i) {
-    CellField& region = work.region[i];
-    for_each<Cell>(domain.layout(), grow(domain.grid.cells(), ghosts),
-                   [&](Cell c) { region[c] = i == 0 ? in.phi[0][c] : work.region[i - 1][c] + in.phi[i][c]; });
-    reconstruct_surface(domain.grid, region, work.surface[i]);
-  }
-}
-
 /// Volume fluxes of species i from either side: what region i fills of the swept slab, less what species 0 ... i-1 take
 /// of it. Where those were limited species i makes up for them, so that liquid stays full.
 template <int Dim>
@@ -113,7 +101,8 @@ void store_volume_fluxes(const Domain<Dim>& domain, const ConvectionInput<Dim>& 
   const std::size_t whole = in.phi.size() - 1;
   const auto swept = [&](Cell c, int d, int side, double velocity) {
     const auto part = [&](std::size_t k) {
-      return swept_fraction(domain.grid, work.surface[k], work.region[k], in.u, c, d, side, velocity, dt);
+      return swept_fraction(domain.grid, in.interfaces.surface[k], in.interfaces.region[k], in.u, c, d, side, velocity,
+                            dt);
     };
     return velocity * (i < whole ? std::min(part(i), part(whole)) : part(i));
   };
@@ -179,8 +168,6 @@ double outflow_through_sides(const Domain<Dim>& domain, const FaceScalars<Dim>& 
 template <int Dim>
 ConvectionWork<Dim>::ConvectionWork(const Layout<Dim>& layout, std::size_t n_species)
     : u_half(layout),
-      region(n_species, CellField(layout)),
-      surface(n_species, Surface<Dim>(layout)),
       outflow(layout),
       flux_low(n_species, FaceScalars<Dim>(layout)),
       flux_high(n_species, FaceScalars<Dim>(layout)) {}
@@ -245,7 +232,6 @@ void convect(const Domain<Dim>& domain, const std::vector<Species>& species, con
              const FaceVelocities<Dim>& velocities, ConvectionWork<Dim>& work, Fractions& phi_tilde,
              CellVectors<Dim>& momentum_tilde, std::vector<double>& escaped) {
   const Grid<Dim>& grid = domain.grid;
-  reconstruct_planes(domain, in, work);
   for (std::size_t i = 0; i < species.size(); ++i) {
     store_volume_fluxes(domain, in, velocities, dt, i, work);
     FaceScalars<Dim>& low = work.flux_low[i];

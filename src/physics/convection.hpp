@@ -23,6 +23,7 @@ struct ConvectionInput {
   const CellVectors<Dim>& u;
   const CellVectors<Dim>& acceleration;  ///< (-grad P + div T) / rho - g of the last step, one ghost layer
   const CellMask& liquid;                ///< D
+  const Interfaces<Dim>& interfaces;     ///< planes of phi
 };
 
 /// Velocities at the faces: `mac` for the projection, and what crosses a face from either side.
@@ -39,8 +40,6 @@ struct FaceVelocities {
 template <int Dim>
 struct ConvectionWork {
   CellVectors<Dim> u_half;
-  std::vector<CellField> region;      ///< per species: sum of its and all earlier fractions
-  std::vector<Surface<Dim>> surface;  ///< planes of these regions
   CellField outflow;
   std::vector<FaceScalars<Dim>> flux_low, flux_high;  ///< per species: volume per time given by the low and high cell
 

@@ -59,9 +59,14 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       next_total_(domain_.layout()),
       next_rho_(domain_.layout()),
       next_liquid_(domain_.layout()),
+      interfaces_(domain_.layout(), parameters_.species.size()),
+      next_interfaces_(interfaces_),
+      elements_(domain_.layout()),
+      next_elements_(elements_),
       momentum_tilde_(domain_.layout()),
       u_bar_(domain_.layout()),
       u_hat_(domain_.layout()),
+      lagged_(domain_.layout()),
       face_velocities_(domain_.layout()),
       convection_(domain_.layout(), parameters_.species.size()),
       mac_(domain_.layout()),
@@ -88,6 +93,15 @@ void Flow<Dim>::refresh() {
 }
 
 template <int Dim>
+void Flow<Dim>::find_elements(const State<Dim>& state, const CellField& total, Interfaces<Dim>& interfaces,
+                              PressureElements<Dim>& elements) {
+  reconstruct_interfaces(domain_.grid, state.phi, interfaces);
+  mark_bearing_cells(domain_.grid, total, elements.bears);
+  hold_open(state.gas, elements.bears);
+  find_pressure_elements(domain_, parameters_.species, total, interfaces, elements);
+}
+
+template <int Dim>
 void Flow<Dim>::initialize() {
   refresh();
   if (has_bubbles(gas_parameters(), state_.gas)) {
@@ -96,16 +110,17 @@ void Flow<Dim>::initialize() {
   }
   gas_pressure_on_nodes(domain_, gas_parameters(), state_.gas, liquid_, false, gas_pressure_, outer_pressure_);
   set_open_pressures(domain_, outer_pressure_);
+  find_elements(state_, total_, interfaces_, elements_);
   mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
   // The pressure that balances gravity as the velocities stand: what is at rest stays so from the first step on.
   const Grid<Dim>& grid = domain_.grid;
   const CellVectors<Dim> none(domain_.layout());
   const double dt = 1;
   add_uniform(grid.layout(), grid.cells(), none, dt, parameters_.gravity, u_hat_);
-  require_converged(solve_pressure(domain_, Projected::acceleration, u_hat_, rho_, liquid_, outer_pressure_, dt,
+  require_converged(solve_pressure(domain_, Projected::acceleration, 0.0, u_hat_, rho_, elements_, outer_pressure_, dt,
                                    parameters_.linear, projection_, state_.pressure),
                     "initial pressure");
-  add_pressure_gradient(domain_, state_.pressure, rho_, liquid_, -dt, u_hat_);
+  add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -dt, u_hat_);
   state_.acceleration = u_hat_;
   refresh();
 }
@@ -128,6 +143,25 @@ void Flow<Dim>::forget_failed_step() {
   mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
 }
 
+template <int Dim>
+void Flow<Dim>::project(double dt, StepReport& report) {
+  const Grid<Dim>& grid = domain_.grid;
+  CellVectors<Dim>& u_bar_star = u_hat_;
+  u_bar_star = next_.u;
+  const double before = kinetic_energy(grid, next_rho_, u_bar_star);
+  // With the last pressure remembered what is at rest stays so; in the rare step where that costs energy it is not.
+  for (const double memory : {1.0, 0.0}) {
+    next_.pressure = state_.pressure;
+    report.projection = solve_pressure(domain_, Projected::velocity, memory, u_bar_star, next_rho_, next_elements_,
+                                       outer_pressure_, dt, parameters_.linear, projection_, next_.pressure);
+    report.gas_work = gas_work(domain_, u_bar_star, next_rho_, next_elements_, dt, projection_);
+    next_.u = u_bar_star;
+    add_pressure_gradient(domain_, next_.pressure, next_rho_, next_elements_, -dt, next_.u);
+    report.projection_energy_change = kinetic_energy(grid, next_rho_, next_.u) - before;
+    if (report.projection_energy_change <= report.gas_work) return;
+  }
+}
+
 /// One step of the report's algorithm:
 ///
 ///   u_mac                 face velocities at n+1/2: predictor with the lagged acceleration, projected in D
@@ -140,7 +174,8 @@ void Flow<Dim>::forget_failed_step() {
 ///   P^{n+1/2}, u^{n+1}    pressure and projection in D^{n+1}               (51), (50)
 ///
 /// Deviates from the report: gravity acts as -dt g, not as -dt rho^{n+1/2} / rho^{n+1} g, which grows without bound
-/// where a cell empties.
+/// where a cell empties. For the same reason the lagged pressure gradient acts as the acceleration it gave to a cell in
+/// the last step, and not anew over the density that the cell has now.
 template <int Dim>
 StepReport Flow<Dim>::step(double dt) {
   const Grid<Dim>& grid = domain_.grid;
@@ -150,7 +185,7 @@ StepReport Flow<Dim>::step(double dt) {
   const auto clock = [&](Phase phase) { report.seconds[static_cast<std::size_t>(phase)] += watch.lap(); };
   std::vector<double> escaped = escaped_;
 
-  const ConvectionInput<Dim> in{state_.phi, total_, rho_, state_.u, state_.acceleration, liquid_};
+  const ConvectionInput<Dim> in{state_.phi, total_, rho_, state_.u, state_.acceleration, liquid_, interfaces_};
   predict_velocities(domain_, in, dt, convection_, face_velocities_);
   clock(Phase::convection);
   report.mac = project_face_velocities(domain_, rho_, liquid_, par.linear, mac_, face_velocities_.mac);
@@ -173,14 +208,17 @@ StepReport Flow<Dim>::step(double dt) {
   }
   gas_pressure_on_nodes(domain_, gas_parameters(), next_.gas, next_liquid_, true, gas_pressure_, outer_pressure_);
   set_open_pressures(domain_, outer_pressure_);
+  find_elements(next_, next_total_, next_interfaces_, next_elements_);
   clock(Phase::redistribute_volume);
   report.momentum = redistribute_momentum(domain_, momentum_tilde_, next_rho_, par.momentum, redistribution_, u_bar_);
   report.redistribution_energy_change = kinetic_energy(grid, next_rho_, u_bar_) - energy_tilde;
   clock(Phase::redistribute_momentum);
 
   next_.pressure = state_.pressure;
+  for (int d = 0; d < Dim; ++d) lagged_[d].fill(0);
+  add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -1.0, lagged_);
   add_uniform(grid.layout(), grid.cells(), u_bar_, dt, par.gravity, u_hat_);
-  add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, -dt, u_hat_);
+  add_scaled(grid.layout(), grid.cells(), u_hat_, dt, lagged_, u_hat_);
   CellVectors<Dim>& u_star = next_.u;
   u_star = u_hat_;
   if (mark_stress_elements(domain_, par.species, next_.phi, next_total_, diffusion_.elements)) {
@@ -191,13 +229,8 @@ StepReport Flow<Dim>::step(double dt) {
   }
   clock(Phase::diffusion);
 
-  add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, dt, u_star);
-  const double energy_star = kinetic_energy(grid, next_rho_, u_star);
-  report.projection = solve_pressure(domain_, Projected::velocity, u_star, next_rho_, next_liquid_, outer_pressure_, dt,
-                                     par.linear, projection_, next_.pressure);
-  report.gas_work = gas_work(domain_, u_star, next_rho_, next_liquid_, dt, projection_);
-  add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, -dt, next_.u);
-  report.projection_energy_change = kinetic_energy(grid, next_rho_, next_.u) - energy_star;
+  add_scaled(grid.layout(), grid.cells(), u_star, -dt, lagged_, u_star);
+  project(dt, report);
   scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, u_bar_, next_.acceleration);
   require_finite(grid, next_);
   report.momentum_norm = std::sqrt(2 * kinetic_energy(grid, next_rho_, next_.u));
@@ -209,6 +242,8 @@ StepReport Flow<Dim>::step(double dt) {
   next_.step = state_.step + 1;
   next_.dt = dt;
   std::swap(state_, next_);
+  std::swap(interfaces_, next_interfaces_);
+  std::swap(elements_, next_elements_);
   escaped_ = escaped;
   refresh();
   return report;

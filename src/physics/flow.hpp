@@ -21,7 +21,7 @@ struct FlowParameters {
   std::vector<Species> species;
   Vec<Dim> gravity;  ///< acceleration vector, downwards along the last axis as a rule
   double ambient_pressure = 0;
-  double liquid_threshold = 0.95;           ///< eps of D = {sum phi >= 1 - eps}
+  double liquid_threshold = 0.5;            ///< eps of D = {sum phi >= 1 - eps}
   TrappedGas trapped_gas;                   ///< what becomes of ambient gas that liquid encloses
   SolveOptions linear{{.relative = 1e-9}};  ///< both projections
   SolveOptions momentum{{.relative = 1e-13},
@@ -86,6 +86,11 @@ class Flow {
  private:
   /// Ghost cells, total(), density() and liquid() of the current state.
   void refresh();
+  /// Where pressure acts for a state's fractions and gas, ghost cells filled.
+  void find_elements(const State<Dim>& state, const CellField& total, Interfaces<Dim>& interfaces,
+                     PressureElements<Dim>& elements);
+  /// (51), (50): the pressure of the new state, and its velocity from (52) in place.
+  void project(double dt, StepReport& report);
   /// The step itself: writes next_, then makes it the state.
   StepReport step(double dt);
   /// Forgets what a failed step left in work arrays that outlive it.
@@ -99,7 +104,9 @@ class Flow {
   CellMask liquid_;
   CellField next_total_, next_rho_;
   CellMask next_liquid_;
-  CellVectors<Dim> momentum_tilde_, u_bar_, u_hat_;
+  Interfaces<Dim> interfaces_, next_interfaces_;
+  PressureElements<Dim> elements_, next_elements_;
+  CellVectors<Dim> momentum_tilde_, u_bar_, u_hat_, lagged_;
   FaceVelocities<Dim> face_velocities_;
   ConvectionWork<Dim> convection_;
   MacProjectionWork<Dim> mac_;

@@ -7,39 +7,6 @@ namespace quicksand {
 
 namespace {
 
-/// The 2^Dim corners of a cell: corner k lies on the high side of axis d if bit d of k is set.
-template <int Dim>
-struct Corners {
-  static constexpr int count = 1 << Dim;
-  Step step[count];
-
-  explicit Corners(const Layout<Dim>& layout) {
-    for (int k = 0; k < count; ++k) {
-      step[k] = {};
-      for (int d = 0; d < Dim; ++d) {
-        if (bit(k, d)) step[k] = step[k] + layout.step(d);
-      }
-    }
-  }
-  static constexpr int bit(int k, int d) { return (k >> d) & 1; }
-  /// Corner k of the cell with multi-index i, at the low end of a periodic axis that the cell ends.
-  static Node of_cell(const Layout<Dim>& layout, Cell c, const Index<Dim>& i, int k) {
-    Node n = low_node(c);
-    for (int d = 0; d < Dim; ++d) n = n + (layout.image(d, i[d] + bit(k, d)) - i[d]) * layout.step(d);
-    return n;
-  }
-};
-
-/// Element mean of dN_k/dx_d in a cell for all corners k.
-template <int Dim>
-double mean_gradient(const Grid<Dim>& grid, const Index<Dim>& i, int k, int d) {
-  double g = (Corners<Dim>::bit(k, d) ? 1 : -1) / grid.width_1d(d, i[d]);
-  for (int e = 0; e < Dim; ++e) {
-    if (e != d) g *= grid.line_element(e, i[e]).fraction[Corners<Dim>::bit(k, e)];
-  }
-  return g;
-}
-
 /// Integral of grad N_a . grad N_b over a cell.
 template <int Dim>
 double stiffness(const Grid<Dim>& grid, const Index<Dim>& i, int a, int b) {
@@ -73,20 +40,6 @@ struct PairTable {
   }
 };
 
-/// A node is solved for if all cells around it, in the domain or mirrored, are liquid, and none beyond an open side.
-template <int Dim>
-void mark_free_nodes(const Domain<Dim>& domain, const CellMask& liquid, NodeMask& free) {
-  const Corners<Dim> corners(domain.layout());
-  for_each<Node>(domain.layout(), domain.grid.nodes(), [&](Node n) {
-    bool all = true;
-    for (int k = 0; k < Corners<Dim>::count; ++k) {
-      const Cell c = high_cell(n) - corners.step[k];
-      all = all && liquid[c] && domain.beyond[c] != Beyond::open;
-    }
-    free[n] = all ? 1 : 0;
-  });
-}
-
 /// The least pressure given at a node, 0 if there is none. The solver's relative tolerance is to mean differences of
 /// pressure, not their height above zero.
 template <int Dim>
@@ -97,15 +50,45 @@ double least_given(const Domain<Dim>& domain, const NodeMask& free, const NodeFi
   return negative > none ? -negative : 0.0;
 }
 
-/// Matrix dt K on the free nodes, and the right-hand side sum V u-bar* . grad N less what the given nodes contribute.
+/// What pressures at the corners of a cell do in it.
 template <int Dim>
-void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellField& rho, const CellMask& liquid,
-              double dt, const NodeField& increment, ProjectionWork<Dim>& work) {
+struct CellPressure {
+  MeanGradient<Dim> mean;                ///< levers and all
+  double stiffness[1 << Dim][1 << Dim];  ///< integral of grad N_a . grad N_b, its part of mean gradients that of `mean`
+  double surplus[1 << Dim][1 << Dim];    ///< of the stiffness over volume * mean . mean
+
+  CellPressure(const Grid<Dim>& grid, const Corners<Dim>& corners, const PressureElements<Dim>& elements, Cell c,
+               const Index<Dim>& i)
+      : mean(elements.gradient(grid, corners, c, i)) {
+    const MeanGradient<Dim> even = even_gradient(grid, i);
+    const double volume = grid.volume(c);
+    for (int a = 0; a < Corners<Dim>::count; ++a) {
+      for (int b = 0; b < Corners<Dim>::count; ++b) {
+        surplus[a][b] = quicksand::stiffness(grid, i, a, b);
+        stiffness[a][b] = 0;
+        for (int d = 0; d < Dim; ++d) {
+          surplus[a][b] -= volume * even.at[a][d] * even.at[b][d];
+          stiffness[a][b] += volume * mean.at[a][d] * mean.at[b][d];
+        }
+        stiffness[a][b] += surplus[a][b];
+      }
+    }
+  }
+};
+
+/// Matrix dt K on the free nodes, and the right-hand side: sum V u-bar* . grad N, the surplus of the stiffness on the
+/// last pressure, less what the given nodes contribute.
+/// \param increment  the last pressure on free nodes, the given one on others
+template <int Dim>
+void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellField& rho,
+              const PressureElements<Dim>& elements, double dt, double memory, const NodeField& increment,
+              ProjectionWork<Dim>& work) {
   using C = Corners<Dim>;
   const Grid<Dim>& grid = domain.grid;
   const Layout<Dim>& layout = domain.layout();
+  const C corners(layout);
   const PairTable<Dim> pairs(work.matrix);
-  const NodeMask& free = work.free;
+  const NodeMask& free = elements.free;
   // One layer more: rows reach couplings of the nodes around the box, which may be left from another box.
   for_each<Node>(layout, grow(work.matrix.box, 1), [&](Node n) {
     work.matrix.diagonal[n] = free[n] ? 0.0 : 1.0;
@@ -115,21 +98,23 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
   Box<Dim> cells = work.matrix.box;
   for (int d = 0; d < Dim; ++d) --cells.lo[d];
   for_each_coloured<Cell>(layout, intersect(cells, grid.cells()), [&](Cell c, const Index<Dim>& i) {
-    if (!liquid[c]) return;
+    if (!elements.bears[c]) return;
     const double scale = dt / rho[c];
+    const CellPressure<Dim> cell(grid, corners, elements, c, i);
     Node corner[C::count];
     for (int k = 0; k < C::count; ++k) corner[k] = C::of_cell(layout, c, i, k);
     for (int a = 0; a < C::count; ++a) {
       const Node na = corner[a];
       if (!free[na]) continue;
       double source = 0;
-      for (int d = 0; d < Dim; ++d) source += grid.volume(c) * u[d][c] * mean_gradient(grid, i, a, d);
+      for (int d = 0; d < Dim; ++d) source += grid.volume(c) * u[d][c] * cell.mean.at[a][d];
       for (int b = 0; b < C::count; ++b) {
         const Node nb = corner[b];
-        const double k = scale * stiffness(grid, i, a, b);
+        const double k = scale * cell.stiffness[a][b];
         if (a == b) work.matrix.diagonal[na] += k;
         if (a > b && free[nb]) work.matrix.lower[pairs.offset[a][b]][na] += k;
         if (!free[nb]) source -= k * increment[nb];
+        source += memory * scale * cell.surplus[a][b] * increment[nb];
       }
       work.rhs[na] += source;
     }
@@ -139,7 +124,7 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
 
 /// What comes in through inflow sides: -integral of N u . n over them, on the right-hand side.
 template <int Dim>
-void add_inflow(const Domain<Dim>& domain, const CellMask& liquid, ProjectionWork<Dim>& work) {
+void add_inflow(const Domain<Dim>& domain, const PressureElements<Dim>& elements, ProjectionWork<Dim>& work) {
   using C = Corners<Dim>;
   const Grid<Dim>& grid = domain.grid;
   for (int d = 0; d < Dim; ++d) {
@@ -148,7 +133,7 @@ void add_inflow(const Domain<Dim>& domain, const CellMask& liquid, ProjectionWor
       for_each_coloured<Face>(domain.layout(), intersect(domain.side_faces(d, s), grid.faces(d)),
                               [&](Face f, const Index<Dim>& i) {
                                 const Cell inner = s == 0 ? high_cell(f) : high_cell(f) - grid.step(d);
-                                if (!liquid[inner]) return;
+                                if (!elements.bears[inner]) return;
                                 const double u = domain.side_velocities.at(d, s, grid.centre(i))[d];
                                 const double inwards = (s == 0 ? u : -u) * grid.area(d, f);
                                 for (int k = 0; k < C::count; ++k) {
@@ -158,7 +143,7 @@ void add_inflow(const Domain<Dim>& domain, const CellMask& liquid, ProjectionWor
                                     if (e != d) part *= grid.line_element(e, i[e]).fraction[C::bit(k, e)];
                                   }
                                   const Node n = C::of_cell(domain.layout(), high_cell(f), i, k);
-                                  if (work.free[n]) work.rhs[n] += part;
+                                  if (elements.free[n]) work.rhs[n] += part;
                                 }
                               });
     }
@@ -183,14 +168,15 @@ void set_open_pressures(const Domain<Dim>& domain, NodeField& outer_pressure) {
 
 template <int Dim>
 void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure, const CellField& rho,
-                           const CellMask& liquid, double factor_dt, CellVectors<Dim>& u) {
+                           const PressureElements<Dim>& elements, double factor_dt, CellVectors<Dim>& u) {
   const Corners<Dim> corners(domain.layout());
   for_each_indexed<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c, const Index<Dim>& i) {
-    if (!liquid[c]) return;
+    if (!elements.bears[c]) return;
+    const MeanGradient<Dim> g = elements.gradient(domain.grid, corners, c, i);
     for (int d = 0; d < Dim; ++d) {
       double gradient = 0;
       for (int k = 0; k < Corners<Dim>::count; ++k) {
-        gradient += mean_gradient(domain.grid, i, k, d) * pressure[low_node(c) + corners.step[k]];
+        gradient += g.at[k][d] * pressure[low_node(c) + corners.step[k]];
       }
       u[d][c] += factor_dt / rho[c] * gradient;
     }
@@ -198,25 +184,24 @@ void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure,
 }
 
 template <int Dim>
-SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const CellVectors<Dim>& u_bar_star,
-                           const CellField& rho, const CellMask& liquid, const NodeField& outer_pressure, double dt,
-                           const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure) {
+SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, double memory, const CellVectors<Dim>& u_bar_star,
+                           const CellField& rho, const PressureElements<Dim>& elements, const NodeField& outer_pressure,
+                           double dt, const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure) {
   const Box<Dim> nodes = domain.grid.nodes();
-  mark_free_nodes(domain, liquid, work.free);
-  const double reference = least_given(domain, work.free, outer_pressure);
+  const double reference = least_given(domain, elements.free, outer_pressure);
   for_each<Node>(domain.layout(), nodes, [&](Node n) {
-    if (!work.free[n]) pressure[n] = outer_pressure[n];
+    if (!elements.free[n]) pressure[n] = outer_pressure[n];
     work.increment[n] = pressure[n] - reference;
   });
-  work.matrix.box = bounding_box<Node>(domain.layout(), nodes, [&](Node n) { return work.free[n] != 0; });
+  work.matrix.box = bounding_box<Node>(domain.layout(), nodes, [&](Node n) { return elements.free[n] != 0; });
   SolveReport report{.converged = true};
   if (!work.matrix.box.empty()) {
-    assemble(domain, u_bar_star, rho, liquid, dt, work.increment, work);
-    if (what == Projected::velocity) add_inflow(domain, liquid, work);
+    assemble(domain, u_bar_star, rho, elements, dt, memory, work.increment, work);
+    if (what == Projected::velocity) add_inflow(domain, elements, work);
     report = solve(work.matrix, work.rhs, work.increment, options);
     require_converged(report, "pressure projection");
     for_each<Node>(domain.layout(), work.matrix.box, [&](Node n) {
-      if (work.free[n]) pressure[n] = reference + work.increment[n];
+      if (elements.free[n]) pressure[n] = reference + work.increment[n];
       work.increment[n] = pressure[n] - reference;  // the solve leaves 0 on given nodes
     });
   }
@@ -226,37 +211,44 @@ SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const Cell
 
 template <int Dim>
 double gas_work(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, const CellField& rho,
-                const CellMask& liquid, double dt, ProjectionWork<Dim>& work) {
+                const PressureElements<Dim>& elements, double dt, ProjectionWork<Dim>& work) {
   using C = Corners<Dim>;
   const Grid<Dim>& grid = domain.grid;
-  const C corners(domain.layout());
+  const Layout<Dim>& layout = domain.layout();
+  const C corners(layout);
   const Box<Dim> nodes = grid.nodes();
-  for_each<Node>(domain.layout(), nodes, [&](Node n) { work.rhs[n] = 0; });
-  for_each_coloured<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
-    if (!liquid[c]) return;
+  for_each<Node>(layout, nodes, [&](Node n) { work.rhs[n] = 0; });
+  for_each_coloured<Cell>(layout, grid.cells(), [&](Cell c, const Index<Dim>& i) {
+    if (!elements.bears[c]) return;
+    Node corner[C::count];
+    bool any = false;
+    for (int k = 0; k < C::count; ++k) {
+      corner[k] = C::of_cell(layout, c, i, k);
+      any = any || (!elements.free[corner[k]] && work.increment[corner[k]] != 0);
+    }
+    if (!any) return;
+    const CellPressure<Dim> cell(grid, corners, elements, c, i);
     for (int a = 0; a < C::count; ++a) {
-      const Node na = low_node(c) + corners.step[a];
-      if (work.free[na] || work.increment[na] == 0) continue;
+      const Node na = corner[a];
+      if (elements.free[na] || work.increment[na] == 0) continue;
       double outflow = 0;
-      for (int d = 0; d < Dim; ++d) outflow += grid.volume(c) * u_bar_star[d][c] * mean_gradient(grid, i, a, d);
-      for (int b = 0; b < C::count; ++b) {
-        outflow -= dt / rho[c] * stiffness(grid, i, a, b) * work.increment[low_node(c) + corners.step[b]];
-      }
+      for (int d = 0; d < Dim; ++d) outflow += grid.volume(c) * u_bar_star[d][c] * cell.mean.at[a][d];
+      for (int b = 0; b < C::count; ++b) outflow -= dt / rho[c] * cell.stiffness[a][b] * work.increment[corner[b]];
       work.rhs[na] += outflow;
     }
   });
-  return -dt * sum<Node>(domain.layout(), nodes, [&](Node n) { return work.rhs[n] * work.increment[n]; });
+  return -dt * sum<Node>(layout, nodes, [&](Node n) { return work.rhs[n] * work.increment[n]; });
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                                     \
-  template void add_pressure_gradient(const Domain<Dim>&, const NodeField&, const CellField&, const CellMask&, double, \
-                                      CellVectors<Dim>&);                                                              \
-  template void set_open_pressures(const Domain<Dim>&, NodeField&);                                                    \
-  template SolveReport solve_pressure(const Domain<Dim>&, Projected, const CellVectors<Dim>&, const CellField&,        \
-                                      const CellMask&, const NodeField&, double, const SolveOptions&,                  \
-                                      ProjectionWork<Dim>&, NodeField&);                                               \
-  template double gas_work(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&, const CellMask&, double,     \
-                           ProjectionWork<Dim>&);
+#define QUICKSAND_INSTANTIATE(Dim)                                                                              \
+  template void add_pressure_gradient(const Domain<Dim>&, const NodeField&, const CellField&,                   \
+                                      const PressureElements<Dim>&, double, CellVectors<Dim>&);                 \
+  template void set_open_pressures(const Domain<Dim>&, NodeField&);                                             \
+  template SolveReport solve_pressure(const Domain<Dim>&, Projected, double, const CellVectors<Dim>&,           \
+                                      const CellField&, const PressureElements<Dim>&, const NodeField&, double, \
+                                      const SolveOptions&, ProjectionWork<Dim>&, NodeField&);                   \
+  template double gas_work(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&,                       \
+                           const PressureElements<Dim>&, double, ProjectionWork<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

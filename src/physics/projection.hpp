@@ -6,6 +6,7 @@
 /// divergence at a node is the adjoint. With exactly integrated stiffness this approximate projection (Almgren, Bell
 /// and Szymczak 1996) never raises the kinetic energy when the gas pressure is uniform.
 #include "core/domain.hpp"
+#include "physics/pressure_elements.hpp"
 #include "solvers/linear_solver.hpp"
 
 namespace quicksand {
@@ -14,18 +15,17 @@ namespace quicksand {
 template <int Dim>
 struct ProjectionWork {
   StencilMatrix<Dim, Node> matrix;
-  NodeMask free;
   NodeField rhs;
   NodeField increment;  ///< pressure above the least one given outside D
 
-  explicit ProjectionWork(const Layout<Dim>& layout)
-      : matrix(layout, Stencil::box), free(layout), rhs(layout), increment(layout) {}
+  explicit ProjectionWork(const Layout<Dim>& layout) : matrix(layout, Stencil::box), rhs(layout), increment(layout) {}
 };
 
-/// u += factor dt / rho grad P in the cells of D: factor -1 applies a pressure gradient, +1 takes it back.
+/// u += factor dt / rho grad P in the cells that bear pressure: factor -1 applies a pressure gradient, +1 takes it
+/// back.
 template <int Dim>
 void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure, const CellField& rho,
-                           const CellMask& liquid, double factor_dt, CellVectors<Dim>& u);
+                           const PressureElements<Dim>& elements, double factor_dt, CellVectors<Dim>& u);
 
 /// Pressures of open sides on their nodes; other nodes stay as they are.
 template <int Dim>
@@ -35,23 +35,27 @@ void set_open_pressures(const Domain<Dim>& domain, NodeField& outer_pressure);
 /// none.
 enum class Projected { velocity, acceleration };
 
-/// Solves dt div(1/rho grad P) = div u-bar* in D (51), with P = outer_pressure on nodes that touch a cell outside D or
-/// lie on an open side.
+/// Solves dt div(1/rho grad P) = div u-bar* in D (51), with P = outer_pressure on nodes that are not free.
+///
+/// Deviates from the report: the matrix K holds more than the divergence of the elements' mean gradients, and the
+/// surplus acts on P - memory P^{n-1/2} rather than on P. With memory = 1 a pressure that balances all other forces is
+/// found again, so that what is at rest stays at rest; with memory = 0 kinetic energy can't rise by more than
+/// gas_work(), with 1 it may by as much as the surplus of P^{n-1/2}.
 /// \param u_bar_star      (52), owned cells
 /// \param outer_pressure  pressure of the gas around each node, and of open sides on their nodes
-/// \param pressure        the last step's pressure on entry (first guess), P^{n+1/2} on return; outer_pressure outside
-///                        D
+/// \param pressure        the last step's pressure on entry (first guess), P^{n+1/2} on return; outer_pressure on nodes
+///                        that are not free
 /// \throws NumericalError when the solve does not converge
 template <int Dim>
-SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const CellVectors<Dim>& u_bar_star,
-                           const CellField& rho, const CellMask& liquid, const NodeField& outer_pressure, double dt,
-                           const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure);
+SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, double memory, const CellVectors<Dim>& u_bar_star,
+                           const CellField& rho, const PressureElements<Dim>& elements, const NodeField& outer_pressure,
+                           double dt, const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure);
 
 /// Work that the gas does on the liquid in the projection just solved: minus dt times the sum over the given nodes of
 /// their pressure times the volume that leaves D there, r = sum V u-bar* . grad N - dt K P. Kinetic energy grows by at
 /// most that much. \param work  as solve_pressure() left it
 template <int Dim>
 double gas_work(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, const CellField& rho,
-                const CellMask& liquid, double dt, ProjectionWork<Dim>& work);
+                const PressureElements<Dim>& elements, double dt, ProjectionWork<Dim>& work);
 
 }  // namespace quicksand

@@ -9,7 +9,7 @@ enum class ViscousIteration { newton, anderson, picard };
 
 /// Thresholds, tolerances and limits of the solves of one time step.
 struct SolverSettings {
-  double liquid_threshold = 0.95;   ///< eps: cells with sum of fractions >= 1 - eps are liquid
+  double liquid_threshold = 0.5;    ///< eps: cells with sum of fractions >= 1 - eps are liquid
   double tolerance = 1e-9;          ///< relative residual of the linear solves
   int max_iterations = 500;         ///< of a linear solve
   double viscous_tolerance = 1e-4;  ///< relative change or residual at which the viscous iteration stops

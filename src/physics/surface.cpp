@@ -61,6 +61,18 @@ void reconstruct_surface(const Grid<Dim>& grid, const CellField& total, Surface<
   });
 }
 
+template <int Dim>
+void reconstruct_interfaces(const Grid<Dim>& grid, const std::vector<CellField>& phi, Interfaces<Dim>& interfaces) {
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    CellField& region = interfaces.region[i];
+    for_each<Cell>(grid.layout(), grow(grid.cells(), ghosts),
+                   [&](Cell c) { region[c] = i == 0 ? phi[0][c] : interfaces.region[i - 1][c] + phi[i][c]; });
+    reconstruct_surface(grid, region, interfaces.surface[i]);
+  }
+}
+
+template void reconstruct_interfaces(const Grid<2>&, const std::vector<CellField>&, Interfaces<2>&);
+template void reconstruct_interfaces(const Grid<3>&, const std::vector<CellField>&, Interfaces<3>&);
 template void reconstruct_surface(const Grid<2>&, const CellField&, Surface<2>&);
 template void reconstruct_surface(const Grid<3>&, const CellField&, Surface<3>&);
 

@@ -6,6 +6,8 @@
 /// Deviates from the report, whose limited slopes smear the surface of a falling body over six cells within a second;
 /// see docs/numerics.md for what that does to the slug. Planes may overfill or overdraw a cell where they turn within a
 /// step: the redistribution and the outflow limit take care of both, so no direction splitting is needed.
+#include <vector>
+
 #include "core/domain.hpp"
 #include "physics/plane.hpp"
 
@@ -18,7 +20,27 @@ struct Surface {
   CellField offset;
 
   explicit Surface(const Layout<Dim>& layout) : normal(layout), offset(layout) {}
+
+  bool cuts(Cell c) const {
+    bool cut = false;
+    for (int d = 0; d < Dim; ++d) cut = cut || normal[d][c] != 0;
+    return cut;
+  }
 };
+
+/// The surfaces of the species' nested regions: region i holds species 0 ... i together, the last one all liquid.
+template <int Dim>
+struct Interfaces {
+  std::vector<CellField> region;      ///< fraction of the region
+  std::vector<Surface<Dim>> surface;  ///< its planes
+
+  Interfaces(const Layout<Dim>& layout, std::size_t n_species)
+      : region(n_species, CellField(layout)), surface(n_species, Surface<Dim>(layout)) {}
+};
+
+/// Finds regions and planes from the species' fractions (both ghost layers filled).
+template <int Dim>
+void reconstruct_interfaces(const Grid<Dim>& grid, const std::vector<CellField>& phi, Interfaces<Dim>& interfaces);
 
 /// Finds the planes in owned cells and one ghost layer from the total fraction (both ghost layers filled).
 template <int Dim>
@@ -29,9 +51,7 @@ void reconstruct_surface(const Grid<Dim>& grid, const CellField& total, Surface<
 template <int Dim>
 double swept_fraction(const Grid<Dim>& grid, const Surface<Dim>& surface, const CellField& total,
                       const CellVectors<Dim>& u, Cell c, int d, int side, double velocity, double dt) {
-  bool cut = false;
-  for (int e = 0; e < Dim; ++e) cut = cut || surface.normal[e][c] != 0;
-  if (!cut) return std::min(total[c], 1.0);
+  if (!surface.cuts(c)) return std::min(total[c], 1.0);
   double offset = surface.offset[c];
   Vec<Dim> m;
   for (int e = 0; e < Dim; ++e) {

@@ -2,11 +2,12 @@
 /// \file
 /// Fractions and what follows from them, for tests of single phases of the time step.
 #include "physics/mixture.hpp"
+#include "physics/pressure_elements.hpp"
 #include "support/grids.hpp"
 
 namespace quicksand::testing {
 
-/// Fractions of some species with their total, density and liquid region; call update() after setting owned cells.
+/// Fractions of some species and what follows from them; call update() after setting owned cells.
 template <int Dim>
 struct Mixture {
   const Domain<Dim>& domain;
@@ -14,6 +15,8 @@ struct Mixture {
   Fractions phi;
   CellField total, rho;
   CellMask liquid;
+  Interfaces<Dim> interfaces;
+  PressureElements<Dim> elements;
 
   Mixture(const Domain<Dim>& d, std::vector<Species> s)
       : domain(d),
@@ -21,13 +24,18 @@ struct Mixture {
         phi(species.size(), CellField(d.layout())),
         total(d.layout()),
         rho(d.layout()),
-        liquid(d.layout()) {}
+        liquid(d.layout()),
+        interfaces(d.layout(), species.size()),
+        elements(d.layout()) {}
 
   void update() {
     for (std::size_t i = 0; i < phi.size(); ++i) fill_fraction_ghosts(domain.grid, domain.sides, i, phi[i]);
     sum_fractions(domain.grid, phi, total);
     mix_density(domain.grid, species, phi, rho);
     mark_liquid(domain.grid, total, 0.5, liquid);
+    reconstruct_interfaces(domain.grid, phi, interfaces);
+    mark_bearing_cells(domain.grid, total, elements.bears);
+    find_pressure_elements(domain, species, total, interfaces, elements);
   }
 };
 

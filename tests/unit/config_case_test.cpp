@@ -41,7 +41,7 @@ TEST(ConfigCase, ReadsEveryValue) {
 
 TEST(ConfigCase, FillsDefaults) {
   const CaseConfig config = parse_case(with("output:\n  directory: results/test\n  fields: {every: 0.1}\n", ""), "c");
-  EXPECT_EQ(config.solver.liquid_threshold, 0.95);
+  EXPECT_EQ(config.solver.liquid_threshold, 0.5);
   EXPECT_EQ(config.solver.tolerance, 1e-9);
   EXPECT_EQ(config.solver.viscous_tolerance, 1e-4);
   EXPECT_EQ(config.solver.viscous_iteration, ViscousIteration::newton);

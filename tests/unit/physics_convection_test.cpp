@@ -32,7 +32,7 @@ struct Convection {
         escaped(m.species.size(), 0.0) {}
 
   ConvectionInput<Dim> input() const {
-    return {mixture.phi, mixture.total, mixture.rho, u, acceleration, mixture.liquid};
+    return {mixture.phi, mixture.total, mixture.rho, u, acceleration, mixture.liquid, mixture.interfaces};
   }
   void advance(double dt) {
     const Domain<Dim>& domain = mixture.domain;

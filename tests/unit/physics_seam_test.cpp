@@ -64,7 +64,7 @@ struct Step {
   Step& operator=(const Step&) = delete;
 
   ConvectionInput<Dim> input() const {
-    return {mixture.phi, mixture.total, mixture.rho, u, acceleration, mixture.liquid};
+    return {mixture.phi, mixture.total, mixture.rho, u, acceleration, mixture.liquid, mixture.interfaces};
   }
   void advance() {
     predict_velocities(domain, input(), dt, work, faces);
