@@ -137,11 +137,26 @@ class DualMesh {
   bool axisymmetric_;
 };
 
-/// Corner velocities of an element, boundary factors applied.
+/// Corner values of a change of velocity, boundary factors applied.
+template <int Dim>
+void gather_change(const DualElement<Dim>& e, const CellVectors<Dim>& change,
+                   double (&corner)[corner_count<Dim>][Dim]) {
+  for (int k = 0; k < corner_count<Dim>; ++k) {
+    for (int c = 0; c < Dim; ++c) corner[k][c] = e.factor[k][c] * change[c][e.corner[k]];
+  }
+}
+
+/// Corner velocities of an element: those of a change from rest.
 template <int Dim>
 void gather(const DualElement<Dim>& e, const CellVectors<Dim>& u, double (&corner)[corner_count<Dim>][Dim]) {
+  gather_change(e, u, corner);
+}
+
+/// The transpose of gather_change(): adds forces on the corners to those on the cells.
+template <int Dim>
+void scatter(const DualElement<Dim>& e, const double (&force)[corner_count<Dim>][Dim], CellVectors<Dim>& cells) {
   for (int k = 0; k < corner_count<Dim>; ++k) {
-    for (int c = 0; c < Dim; ++c) corner[k][c] = e.factor[k][c] * u[c][e.corner[k]];
+    for (int c = 0; c < Dim; ++c) cells[c][e.corner[k]] += e.factor[k][c] * force[k][c];
   }
 }
 
