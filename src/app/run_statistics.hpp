@@ -47,6 +47,8 @@ class RunStatistics {
   long retries_ = 0;
   long steps_beyond_cfl_ = 0;
   long fallbacks_ = 0;
+  long stagnated_ = 0;
+  double largest_gap_ = 0;
   std::vector<double> initial_volume_;
   std::vector<double> volume_error_;
   double energy_scale_ = 0;

@@ -117,8 +117,10 @@ DiffusionReport diffuse(const Domain<Dim>& domain, const CellField& rho, const C
     problem.target = options.tolerance * hat.norm;
     problem.reached = [&](const ViscousProgress& now) { return now.norm <= problem.target; };
     report.converged = iterate(problem, options.iteration, options.max_iterations, u, report);
-    report.gap = relative_gap(problem, u, 0.5 * std::pow(gradient_norm(domain, work, work.gradient), 2));
+    report.gap = 0.5 * std::pow(gradient_norm(domain, work, work.gradient), 2);
   }
+  const double energy = stress_energy(problem, u);
+  report.gap = energy > 0 ? report.gap / energy : 0.0;
   report.residual = hat.norm > 0 ? gradient_norm(domain, work, work.gradient) / hat.norm : 0.0;
   return report;
 }

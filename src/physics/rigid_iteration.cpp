@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <limits>
+
+#include "physics/dual_iteration.hpp"
 
 namespace quicksand {
 
@@ -12,33 +13,44 @@ namespace {
 constexpr int max_updates = 100;
 /// The smooth problems are solved until their gradient takes this part of the error bound.
 constexpr double gradient_share = 0.1;
-/// penalty = penalty_factor rho L^2 / dt
-const double penalty_factor = std::getenv("PF") ? std::atof(std::getenv("PF")) : 300.0;
-const bool verbose = std::getenv("VERB") != nullptr;
+/// The penalty is this many times rho L^2 / dt, L the extent of what carries stress: rigid motions of the whole are then
+/// found by the first update to within a per cent or so. More makes the smooth problems harder, less takes more updates.
+constexpr double penalty_factor = 300;
+/// Where an update does not bring the gap down to this part, the penalty grows.
+constexpr double least_progress = 0.1;
+constexpr double penalty_growth = 10;
+/// Velocities are exact to this part of |u^| at the latest.
+constexpr double negligible_speed = 1e-12;
+/// The dual method takes many, cheap iterations: as many times as the others may.
+constexpr int dual_iterations = 1000;
 
 double square(double x) { return x * x; }
 
 /// Bound on 1/2 sum m |u - u*|^2.
 double bound(const ViscousProgress& now) { return now.value.gap + 0.5 * square(now.norm); }
 
-/// 1/2 sum m |u - u^|^2.
+/// Error bound that round-off of the strain rates alone makes: all yield stresses at strain rates of epsilon |u| / h.
 template <int Dim>
-double stress_energy(const ViscousProblem<Dim>& p, const CellVectors<Dim>& u) {
-  double twice = 0;
+double rounding_bound(const ViscousProblem<Dim>& p) {
+  const DiffusionWork<Dim>& work = p.work;
+  const Grid<Dim>& grid = p.domain.grid;
+  NodeField forces(grid.layout());
+  for_each_indexed<Node>(grid.layout(), grid.nodes(), [&](Node n, const Index<Dim>& i) {
+    if (!work.elements.active[n]) return;
+    forces[n] = work.elements.rheology[n].rigid_yield_stress * work.elements.share[n] *
+                work.elements.mesh.element(n, i).volume();
+  });
+  const double force = sum<Node>(grid.layout(), grid.nodes(), [&](Node n) { return forces[n]; });
+  double fastest = 0;
   for (int d = 0; d < Dim; ++d) {
-    twice += sum<Cell>(p.domain.layout(), p.work.matrix.box(),
-                       [&](Cell c) { return p.work.mass[d][c] * square(u[d][c] - p.u_hat[d][c]); });
+    fastest = std::max(fastest, maximum<Cell>(grid.layout(), work.matrix.box(), 0.0, [&](Cell c) {
+      return work.mass[d][c] > 0 ? std::abs(p.u_hat[d][c]) : 0.0;
+    }));
   }
-  return 0.5 * twice;
+  return 4 * std::numeric_limits<double>::epsilon() * p.dt * force * fastest / grid.smallest_width();
 }
 
 }  // namespace
-
-template <int Dim>
-double relative_gap(const ViscousProblem<Dim>& p, const CellVectors<Dim>& u, double bound) {
-  const double scale = stress_energy(p, u);
-  return bound > 0 && scale > 0 ? bound / scale : 0.0;
-}
 
 template <int Dim>
 void prepare_multipliers(const Domain<Dim>& domain, const CellField& rho, double dt, DiffusionWork<Dim>& work) {
@@ -56,42 +68,52 @@ void prepare_multipliers(const Domain<Dim>& domain, const CellField& rho, double
   });
 }
 
+namespace {
+
+/// The method of multipliers: whether the error bound came down to the goal.
 template <int Dim>
-bool iterate_multipliers(ViscousProblem<Dim>& p, const DiffusionOptions& options, CellVectors<Dim>& u,
-                         DiffusionReport& report) {
+bool update_multipliers(ViscousProblem<Dim>& p, const DiffusionOptions& options,
+                        const ErrorGoal<Dim>& goal, CellVectors<Dim>& u,
+                        DiffusionReport& report) {
   DiffusionWork<Dim>& work = p.work;
-  int budget = options.max_iterations;
-  const auto goal = [&](const CellVectors<Dim>& v) {
-    return std::max((std::getenv("GT")?std::atof(std::getenv("GT")):1e-4) * stress_energy(p, v), 0.5 * square(1e-12 * p.speed));
-  };
   double aim = goal(u);
   double last_gap = 0;
-  for (int k = 0;; ++k) {
-    p.reached = [&](const ViscousProgress& now) {
+  for (int k = 0; k < max_updates; ++k) {
+    // With every update the smooth problem need be solved no better than the multipliers are known.
+    p.reached = [aim](const ViscousProgress& now) {
       return 0.5 * square(now.norm) <= gradient_share * std::max(now.value.gap, aim);
     };
-    const int before = report.iterations;
-    const bool smooth = iterate(p, options.iteration, budget, u, report);
-    ViscousProgress now = progress_at(p, u);
-    aim = goal(u);
-    if (verbose)
-      std::printf("   k %d newton %d gap %.3e grad %.3e aim %.3e value %.6e\n", k, report.iterations - before,
-                  now.value.gap, 0.5 * square(now.norm), aim, now.value.value);
+    const bool solved = iterate(p, options.iteration, options.max_iterations, u, report);
+    const ViscousProgress now = progress_at(p, u);
     for_each_stress_point(p.domain, u, work, [&](Node n, const DualElement<Dim>&, int q, const StrainRate<Dim>& s) {
       if (work.elements.rheology[n].rigid_yield_stress > 0) work.multiplier[n].at[q] = work.rigid_yield(n, q, s).stress;
     });
     ++report.multiplier_updates;
-    report.gap = relative_gap(p, u, bound(now));
-    if (bound(now) <= aim) return true;
-    static const double growth = std::getenv("GROW") ? std::atof(std::getenv("GROW")) : 300.0;
-    if (k > 0 && now.value.gap > 0.1 * last_gap && now.value.gap > 0.5*aim) work.penalty *= growth;
+    aim = goal(u);
+    report.gap = bound(now);
+    if (report.gap <= aim) return true;
+    if (!solved) return false;
+    if (k > 0 && now.value.gap > least_progress * last_gap) work.penalty *= penalty_growth;
     last_gap = now.value.gap;
-    if (!smooth || k == max_updates) return false;
   }
+  return false;
+}
+
+}  // namespace
+
+template <int Dim>
+bool iterate_multipliers(ViscousProblem<Dim>& p, const DiffusionOptions& options, CellVectors<Dim>& u,
+                         DiffusionReport& report) {
+  const double negligible = std::max(0.5 * square(negligible_speed * p.speed), rounding_bound(p));
+  const ErrorGoal<Dim> goal = [&](const CellVectors<Dim>& v) {
+    return std::max(options.tolerance * stress_energy(p, v), negligible);
+  };
+  if (options.iteration != ViscousIteration::dual && update_multipliers(p, options, goal, u, report)) return true;
+  report.fell_back = options.iteration != ViscousIteration::dual;
+  return iterate_dual(p, goal, dual_iterations * options.max_iterations, u, report);
 }
 
 #define QUICKSAND_INSTANTIATE(Dim)                                                                                   \
-  template double relative_gap(const ViscousProblem<Dim>&, const CellVectors<Dim>&, double);                         \
   template void prepare_multipliers(const Domain<Dim>&, const CellField&, double, DiffusionWork<Dim>&);              \
   template bool iterate_multipliers(ViscousProblem<Dim>&, const DiffusionOptions&, CellVectors<Dim>&,                \
                                     DiffusionReport&);

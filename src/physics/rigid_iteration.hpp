@@ -5,10 +5,6 @@
 
 namespace quicksand {
 
-/// Bound on the error's energy relative to 1/2 sum m |u - u^|^2, the energy of what stress does; 0 if the bound is 0.
-template <int Dim>
-double relative_gap(const ViscousProblem<Dim>& p, const CellVectors<Dim>& u, double bound);
-
 /// Chooses the penalty and makes the multipliers of the last step admissible for this one.
 /// \param rho  density of the mixture
 template <int Dim>

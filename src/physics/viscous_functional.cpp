@@ -262,13 +262,60 @@ void update_plastic_stress(const Domain<Dim>& domain, const CellVectors<Dim>& u,
   });
 }
 
+template <int Dim>
+NodeField dual_steps(const Domain<Dim>& domain, double dt, const DiffusionWork<Dim>& work) {
+  const Layout<Dim>& layout = domain.layout();
+  Box<Dim> elements = work.matrix.box();
+  for (int d = 0; d < Dim; ++d) ++elements.hi[d];
+  // A cell shares its mass among the corners that it is.
+  CellField corners(layout);
+  for_each_coloured<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
+    if (!work.elements.active[n]) return;
+    for (const Cell c : work.elements.mesh.element(n, index).corner) corners[c] += 1;
+  });
+  NodeField steps(layout);
+  for_each_indexed<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
+    if (!work.elements.active[n]) return;
+    const DualElement<Dim> e = work.elements.mesh.element(n, index);
+    ElementMatrix<Dim> K = {};
+    for (int q = 0; q < point_count<Dim>; ++q) {
+      const double weight = dt * work.elements.share[n] * e.weight(q);
+      if (weight > 0) add_point<Dim>(PointShapes<Dim>(e, q), {}, {}, weight, 0, K);
+    }
+    // Row sums of the scaled matrix bound its eigenvalues; the lower half of K stands for both.
+    double rows[corner_count<Dim>][Dim] = {};
+    const auto scale = [&](int k, int c) {
+      const Cell cell = e.corner[k];
+      return std::abs(e.factor[k][c]) * std::sqrt(corners[cell] / work.mass[c][cell]);
+    };
+    for (int a = 0; a < corner_count<Dim>; ++a) {
+      for (int b = 0; b <= a; ++b) {
+        for (int i = 0; i < Dim; ++i) {
+          for (int j = 0; j < Dim; ++j) {
+            const double entry = std::abs(K[a][b][i][j]) * scale(a, i) * scale(b, j);
+            rows[a][i] += entry;
+            if (a != b) rows[b][j] += entry;
+          }
+        }
+      }
+    }
+    double largest = 0;
+    for (const auto& row : rows) {
+      for (const double r : row) largest = std::max(largest, r);
+    }
+    steps[n] = (largest > 0 ? 1 / largest : 0.0) + work.elements.rheology[n].viscosity;
+  });
+  return steps;
+}
+
 #define QUICKSAND_INSTANTIATE(Dim)                                                                                  \
   template FunctionalValue evaluate_functional(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&, double, \
                                       DiffusionWork<Dim>&, CellVectors<Dim>&);                                      \
   template void assemble_matrix(const Domain<Dim>&, const CellVectors<Dim>&, double, Linearisation,                 \
                                 DiffusionWork<Dim>&);                                                               \
   template void update_plastic_stress(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&,         \
-                                      DiffusionWork<Dim>&);
+                                      DiffusionWork<Dim>&);                                                         \
+  template NodeField dual_steps(const Domain<Dim>&, double, const DiffusionWork<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

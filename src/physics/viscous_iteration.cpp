@@ -49,7 +49,8 @@ bool iterate_newton(const ViscousProblem<Dim>& p, int max_iterations, CellVector
     // Inexact Newton: as accurate as the quadratic convergence seen so far deserves.
     const double seen = now.norm / last_norm;
     const double forcing = k == 0 ? 1e-2 : std::clamp(0.5 * seen * seen, 1e-4, 1e-2);
-    const SolveReport linear = solve_velocity(work.matrix, work.gradient, work.update, std::max(forcing, 0.1 * p.target / now.norm));
+    const SolveReport linear = VelocitySolver<Dim>(work.matrix)
+                                   .solve(work.gradient, work.update, std::max(forcing, 0.1 * p.target / now.norm));
     report.linear_iterations += linear.iterations;
     ++report.iterations;
     const double descent = dot<Cell>(layout, work.matrix.box(), work.gradient, work.update);
@@ -116,7 +117,7 @@ bool iterate_picard(const ViscousProblem<Dim>& p, int max_iterations, bool accel
     if (k == max_iterations || !std::isfinite(now.norm)) return false;
     assemble_matrix(p.domain, u, p.dt, Linearisation::secant, work);
     for (int d = 0; d < Dim; ++d) work.update[d].fill(0);
-    const SolveReport linear = solve_velocity(work.matrix, work.gradient, work.update, 1e-3);
+    const SolveReport linear = VelocitySolver<Dim>(work.matrix).solve(work.gradient, work.update, 1e-3);
     report.linear_iterations += linear.iterations;
     ++report.iterations;
     if (std::abs(dot<Cell>(layout, work.matrix.box(), work.gradient, work.update)) <= least_drop(p)) {
@@ -145,6 +146,18 @@ double gradient_norm(const Domain<Dim>& domain, const DiffusionWork<Dim>& work, 
 }
 
 template <int Dim>
+double stress_energy(const ViscousProblem<Dim>& p, const CellVectors<Dim>& u) {
+  double twice = 0;
+  for (int d = 0; d < Dim; ++d) {
+    twice += sum<Cell>(p.domain.layout(), p.work.matrix.box(), [&](Cell c) {
+      const double change = u[d][c] - p.u_hat[d][c];
+      return p.work.mass[d][c] * change * change;
+    });
+  }
+  return 0.5 * twice;
+}
+
+template <int Dim>
 ViscousProgress progress_at(const ViscousProblem<Dim>& p, const CellVectors<Dim>& u) {
   const FunctionalValue value = evaluate_functional(p.domain, p.u_hat, u, p.dt, p.work, p.work.gradient);
   return {gradient_norm(p.domain, p.work, p.work.gradient), value};
@@ -166,6 +179,7 @@ bool iterate(const ViscousProblem<Dim>& p, ViscousIteration method, int max_iter
 
 #define QUICKSAND_INSTANTIATE(Dim)                                                                                   \
   template double gradient_norm(const Domain<Dim>&, const DiffusionWork<Dim>&, const CellVectors<Dim>&);             \
+  template double stress_energy(const ViscousProblem<Dim>&, const CellVectors<Dim>&);                                \
   template ViscousProgress progress_at(const ViscousProblem<Dim>&, const CellVectors<Dim>&);                         \
   template bool iterate(const ViscousProblem<Dim>&, ViscousIteration, int, CellVectors<Dim>&, DiffusionReport&);
 QUICKSAND_INSTANTIATE(2)

@@ -26,9 +26,17 @@ struct ViscousProblem {
   std::function<bool(const ViscousProgress&)> reached;
 };
 
+/// The error bound, as an energy, below which a velocity suffices.
+template <int Dim>
+using ErrorGoal = std::function<double(const CellVectors<Dim>&)>;
+
 /// sqrt(sum r^2 / m).
 template <int Dim>
 double gradient_norm(const Domain<Dim>& domain, const DiffusionWork<Dim>& work, const CellVectors<Dim>& gradient);
+
+/// 1/2 sum m |u - u^|^2, the energy of what stress does.
+template <int Dim>
+double stress_energy(const ViscousProblem<Dim>& p, const CellVectors<Dim>& u);
 
 /// Functional, gradient (into work.gradient) and its norm at u.
 template <int Dim>
