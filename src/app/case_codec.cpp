@@ -124,11 +124,11 @@ Codec<Law> law_codec() {
           alternative<Law, Newtonian>("newtonian",
                                       {required("viscosity", &Newtonian::viscosity, viscosity, "dynamic viscosity")},
                                       "stress proportional to the strain rate"),
-          alternative<Law, Bingham>("bingham",
-                                    {required("viscosity", &Bingham::viscosity, viscosity, "viscosity above the yield stress"),
-                                     required("yield_stress", &Bingham::yield_stress, yield_stress,
-                                              "stress below which it is rigid")},
-                                    "Bingham's law: rigid below the yield stress"),
+          alternative<Law, Bingham>(
+              "bingham",
+              {required("viscosity", &Bingham::viscosity, viscosity, "viscosity above the yield stress"),
+               required("yield_stress", &Bingham::yield_stress, yield_stress, "stress below which it is rigid")},
+              "Bingham's law: rigid below the yield stress"),
           alternative<Law, Papanastasiou>(
               "papanastasiou",
               {

@@ -63,8 +63,8 @@ template <int Dim>
 double mass_norm(const Domain<Dim>& domain, const DiffusionWork<Dim>& work, const CellVectors<Dim>& u) {
   double square = 0;
   for (int d = 0; d < Dim; ++d) {
-    square += sum<Cell>(domain.layout(), work.matrix.box(),
-                        [&](Cell c) { return work.mass[d][c] * u[d][c] * u[d][c]; });
+    square +=
+        sum<Cell>(domain.layout(), work.matrix.box(), [&](Cell c) { return work.mass[d][c] * u[d][c] * u[d][c]; });
   }
   return std::sqrt(square);
 }

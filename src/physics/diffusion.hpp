@@ -33,9 +33,9 @@ struct DiffusionOptions {
 /// What became of a diffusion step.
 struct DiffusionReport {
   bool converged = true;
-  bool fell_back = false;     ///< another method had to take over
-  bool stagnated = false;     ///< ended at round-off of the functional, short of the tolerance but at a negligible error
-  int iterations = 0;         ///< nonlinear
+  bool fell_back = false;  ///< another method had to take over
+  bool stagnated = false;  ///< ended at round-off of the functional, short of the tolerance but at a negligible error
+  int iterations = 0;      ///< nonlinear
   int linear_iterations = 0;  ///< conjugate gradients in all
   int multiplier_updates = 0;
   double residual = 0;  ///< relative gradient norm reached

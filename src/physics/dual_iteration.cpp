@@ -71,8 +71,8 @@ class PrimalStep {
 
 /// The iteration, where work.multiplier is the stress itself.
 template <int Dim>
-bool follow_strain(const ViscousProblem<Dim>& p, const ErrorGoal<Dim>& goal,
-                  int max_iterations, CellVectors<Dim>& u, DiffusionReport& report) {
+bool follow_strain(const ViscousProblem<Dim>& p, const ErrorGoal<Dim>& goal, int max_iterations, CellVectors<Dim>& u,
+                   DiffusionReport& report) {
   DiffusionWork<Dim>& work = p.work;
   const Layout<Dim>& layout = p.domain.layout();
   const NodeField step = dual_steps(p.domain, p.dt, work);
@@ -96,8 +96,7 @@ bool follow_strain(const ViscousProblem<Dim>& p, const ErrorGoal<Dim>& goal,
       StrainRate<Dim> fresh = add_scaled(extrapolated, step[n], s);
       limit(fresh, yield_stress);
       const StrainRate<Dim> change = add_scaled(fresh, -1, old);
-      uphill[n] +=
-          work.elements.share[n] * e.weight(q) / step[n] * inner(add_scaled(extrapolated, -1, fresh), change);
+      uphill[n] += work.elements.share[n] * e.weight(q) / step[n] * inner(add_scaled(extrapolated, -1, fresh), change);
       extrapolated = add_scaled(fresh, beta, change);
       old = fresh;
     });
@@ -131,9 +130,9 @@ bool iterate_dual(const ViscousProblem<Dim>& p, const ErrorGoal<Dim>& goal, int 
   return reached;
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                             \
-  template bool iterate_dual(const ViscousProblem<Dim>&, const ErrorGoal<Dim>&, \
-                             int, CellVectors<Dim>&, DiffusionReport&);
+#define QUICKSAND_INSTANTIATE(Dim)                                                                      \
+  template bool iterate_dual(const ViscousProblem<Dim>&, const ErrorGoal<Dim>&, int, CellVectors<Dim>&, \
+                             DiffusionReport&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

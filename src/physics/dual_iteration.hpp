@@ -15,7 +15,7 @@ namespace quicksand {
 /// \param u       guess on entry, result on return; work.multiplier holds the stresses
 /// \returns whether the duality gap came down to the goal
 template <int Dim>
-bool iterate_dual(const ViscousProblem<Dim>& p, const ErrorGoal<Dim>& goal,
-                  int max_iterations, CellVectors<Dim>& u, DiffusionReport& report);
+bool iterate_dual(const ViscousProblem<Dim>& p, const ErrorGoal<Dim>& goal, int max_iterations, CellVectors<Dim>& u,
+                  DiffusionReport& report);
 
 }  // namespace quicksand

@@ -14,6 +14,7 @@ struct ToRheology {
     return {.viscosity = law.viscosity, .yield_stress = law.yield_stress, .regularization = law.regularization};
   }
   Rheology operator()(const HerschelBulkley& law) const {
+    if (law.index == 1) return (*this)(Papanastasiou{law.consistency, law.yield_stress, law.regularization});
     return {.yield_stress = law.yield_stress,
             .regularization = law.regularization,
             .consistency = law.consistency,
@@ -95,8 +96,8 @@ void add_power_law(const Rheology& m, double s, LawValue& value) {
     const double ratio = s / m.cutoff;
     f = m.consistency * std::pow(square, 0.5 * (n - 1));
     slope = f * (n - 1) * s / square;
-    value.potential += m.consistency * std::pow(m.cutoff, n + 1) *
-                       std::expm1(0.5 * (n + 1) * std::log1p(ratio * ratio)) / (n + 1);
+    value.potential +=
+        m.consistency * std::pow(m.cutoff, n + 1) * std::expm1(0.5 * (n + 1) * std::log1p(ratio * ratio)) / (n + 1);
   } else {
     f = m.consistency * std::pow(s, n - 1);
     slope = s > 0 ? f * (n - 1) / s : 0.0;
@@ -133,8 +134,7 @@ void add_casson(const Rheology& m, double s, LawValue& value) {
   value.plastic += f;
   value.slope += slope;
   value.plastic_slope += slope;
-  value.potential +=
-      2 * m.casson_cross * integral.cross / (a * root) + 2 * m.casson_yield_stress * integral.yield / a;
+  value.potential += 2 * m.casson_cross * integral.cross / (a * root) + 2 * m.casson_yield_stress * integral.yield / a;
 }
 
 }  // namespace quicksand

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "physics/dual_iteration.hpp"
 
@@ -13,8 +14,9 @@ namespace {
 constexpr int max_updates = 100;
 /// The smooth problems are solved until their gradient takes this part of the error bound.
 constexpr double gradient_share = 0.1;
-/// The penalty is this many times rho L^2 / dt, L the extent of what carries stress: rigid motions of the whole are then
-/// found by the first update to within a per cent or so. More makes the smooth problems harder, less takes more updates.
+/// The penalty is this many times rho L^2 / dt, L the extent of what carries stress: rigid motions of the whole are
+/// then found by the first update to within a per cent or so. More makes the smooth problems harder, less takes more
+/// updates.
 constexpr double penalty_factor = 300;
 /// Where an update does not bring the gap down to this part, the penalty grows.
 constexpr double least_progress = 0.1;
@@ -44,8 +46,8 @@ double rounding_bound(const ViscousProblem<Dim>& p) {
   double fastest = 0;
   for (int d = 0; d < Dim; ++d) {
     fastest = std::max(fastest, maximum<Cell>(grid.layout(), work.matrix.box(), 0.0, [&](Cell c) {
-      return work.mass[d][c] > 0 ? std::abs(p.u_hat[d][c]) : 0.0;
-    }));
+                         return work.mass[d][c] > 0 ? std::abs(p.u_hat[d][c]) : 0.0;
+                       }));
   }
   return 4 * std::numeric_limits<double>::epsilon() * p.dt * force * fastest / grid.smallest_width();
 }
@@ -72,16 +74,16 @@ namespace {
 
 /// The method of multipliers: whether the error bound came down to the goal.
 template <int Dim>
-bool update_multipliers(ViscousProblem<Dim>& p, const DiffusionOptions& options,
-                        const ErrorGoal<Dim>& goal, CellVectors<Dim>& u,
-                        DiffusionReport& report) {
+bool update_multipliers(ViscousProblem<Dim>& p, const DiffusionOptions& options, const ErrorGoal<Dim>& goal,
+                        CellVectors<Dim>& u, DiffusionReport& report) {
   DiffusionWork<Dim>& work = p.work;
   double aim = goal(u);
   double last_gap = 0;
   for (int k = 0; k < max_updates; ++k) {
-    // With every update the smooth problem need be solved no better than the multipliers are known.
-    p.reached = [aim](const ViscousProgress& now) {
-      return 0.5 * square(now.norm) <= gradient_share * std::max(now.value.gap, aim);
+    // The smooth problem need be solved no better than the multipliers are known. One iteration at least, so that what
+    // is at rest comes closer to it with every step.
+    p.reached = [aim, first = k == 0](const ViscousProgress& now) mutable {
+      return !std::exchange(first, false) && 0.5 * square(now.norm) <= gradient_share * std::max(now.value.gap, aim);
     };
     const bool solved = iterate(p, options.iteration, options.max_iterations, u, report);
     const ViscousProgress now = progress_at(p, u);
@@ -113,10 +115,9 @@ bool iterate_multipliers(ViscousProblem<Dim>& p, const DiffusionOptions& options
   return iterate_dual(p, goal, dual_iterations * options.max_iterations, u, report);
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                                   \
-  template void prepare_multipliers(const Domain<Dim>&, const CellField&, double, DiffusionWork<Dim>&);              \
-  template bool iterate_multipliers(ViscousProblem<Dim>&, const DiffusionOptions&, CellVectors<Dim>&,                \
-                                    DiffusionReport&);
+#define QUICKSAND_INSTANTIATE(Dim)                                                                      \
+  template void prepare_multipliers(const Domain<Dim>&, const CellField&, double, DiffusionWork<Dim>&); \
+  template bool iterate_multipliers(ViscousProblem<Dim>&, const DiffusionOptions&, CellVectors<Dim>&, DiffusionReport&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

@@ -4,8 +4,8 @@
 ///
 /// tau_y s is the greatest <p, Delta> over stresses |p| <= tau_y, <a, b> = 1/2 a:b. The method of multipliers holds an
 /// estimate p and adds -|q - p|^2 / (2 r) to <q, Delta>: the greatest value is smooth in Delta and belongs to
-/// q = P(p + r Delta), P the projection onto |q| <= tau_y. Where p is the true stress, so is q, for any penalty r > 0, and
-/// a rigid material does not strain at all.
+/// q = P(p + r Delta), P the projection onto |q| <= tau_y. Where p is the true stress, so is q, for any penalty r > 0,
+/// and a rigid material does not strain at all.
 #include <algorithm>
 #include <cmath>
 

@@ -308,13 +308,13 @@ NodeField dual_steps(const Domain<Dim>& domain, double dt, const DiffusionWork<D
   return steps;
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                                  \
-  template FunctionalValue evaluate_functional(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&, double, \
-                                      DiffusionWork<Dim>&, CellVectors<Dim>&);                                      \
-  template void assemble_matrix(const Domain<Dim>&, const CellVectors<Dim>&, double, Linearisation,                 \
-                                DiffusionWork<Dim>&);                                                               \
-  template void update_plastic_stress(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&,         \
-                                      DiffusionWork<Dim>&);                                                         \
+#define QUICKSAND_INSTANTIATE(Dim)                                                                                   \
+  template FunctionalValue evaluate_functional(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&, \
+                                               double, DiffusionWork<Dim>&, CellVectors<Dim>&);                      \
+  template void assemble_matrix(const Domain<Dim>&, const CellVectors<Dim>&, double, Linearisation,                  \
+                                DiffusionWork<Dim>&);                                                                \
+  template void update_plastic_stress(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&,          \
+                                      DiffusionWork<Dim>&);                                                          \
   template NodeField dual_steps(const Domain<Dim>&, double, const DiffusionWork<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)

@@ -37,8 +37,8 @@ template <int Dim>
 void update_plastic_stress(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellVectors<Dim>& update,
                            DiffusionWork<Dim>& work);
 
-/// Per element the largest step of a gradient method for rigid stresses, a viscosity: 1/lambda + mu, where lambda bounds
-/// the element's stiffness at unit viscosity, times dt, against its corners' share of the mass.
+/// Per element the largest step of a gradient method for rigid stresses, a viscosity: 1/lambda + mu, where lambda
+/// bounds the element's stiffness at unit viscosity, times dt, against its corners' share of the mass.
 template <int Dim>
 NodeField dual_steps(const Domain<Dim>& domain, double dt, const DiffusionWork<Dim>& work);
 

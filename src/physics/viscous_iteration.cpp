@@ -177,10 +177,10 @@ bool iterate(const ViscousProblem<Dim>& p, ViscousIteration method, int max_iter
   return iterate_picard(p, 10 * max_iterations, accelerate, u, report);
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                                   \
-  template double gradient_norm(const Domain<Dim>&, const DiffusionWork<Dim>&, const CellVectors<Dim>&);             \
-  template double stress_energy(const ViscousProblem<Dim>&, const CellVectors<Dim>&);                                \
-  template ViscousProgress progress_at(const ViscousProblem<Dim>&, const CellVectors<Dim>&);                         \
+#define QUICKSAND_INSTANTIATE(Dim)                                                                       \
+  template double gradient_norm(const Domain<Dim>&, const DiffusionWork<Dim>&, const CellVectors<Dim>&); \
+  template double stress_energy(const ViscousProblem<Dim>&, const CellVectors<Dim>&);                    \
+  template ViscousProgress progress_at(const ViscousProblem<Dim>&, const CellVectors<Dim>&);             \
   template bool iterate(const ViscousProblem<Dim>&, ViscousIteration, int, CellVectors<Dim>&, DiffusionReport&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)

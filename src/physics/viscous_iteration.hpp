@@ -20,7 +20,7 @@ struct ViscousProblem {
   const CellVectors<Dim>& u_hat;
   double dt;
   DiffusionWork<Dim>& work;
-  double speed;  ///< |u^| in the norm of the masses, sqrt(sum m |u^|^2)
+  double speed;   ///< |u^| in the norm of the masses, sqrt(sum m |u^|^2)
   double target;  ///< gradient norm that surely suffices; 0 if none is known
   /// Whether the progress suffices.
   std::function<bool(const ViscousProgress&)> reached;
