@@ -68,7 +68,9 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       redistribution_(domain_, parameters_.species),
       diffusion_(domain_, parameters_.species),
       projection_(domain_.layout()),
-      outer_pressure_(domain_.layout(), parameters_.ambient_pressure) {
+      outer_pressure_(domain_.layout(), parameters_.ambient_pressure),
+      pressure_change_(domain_.layout()),
+      no_pressure_(domain_.layout()) {
   state_.pressure.fill(parameters_.ambient_pressure);
 }
 
@@ -128,8 +130,11 @@ void Flow<Dim>::forget_failed_step() {
 ///   u-bar                 momentum redistribution                          (11)
 ///   u^                    gravity and lagged pressure gradient             (47)
 ///   u*                    implicit viscoplastic stress, theta = 1          (46)-(49)
-///   u-bar*                lagged pressure gradient taken back              (52)
-///   P^{n+1/2}, u^{n+1}    pressure and projection in D^{n+1}               (51), (50)
+///   P^{n+1/2}, u^{n+1}    pressure and projection in D^{n+1}               (52), (51), (50)
+///
+/// Deviates from the report: the projection (51) is solved for the change of P on u*, not for P itself on u-bar*. The
+/// divergence of an element's mean gradient is not quite the matrix of (51), and where P itself is solved for the
+/// difference acts in every step: a slurry whose u* is at rest would keep creeping, at a speed proportional to dt.
 ///
 /// Deviates from the report: gravity acts as -dt g, not as -dt rho^{n+1/2} / rho^{n+1} g, which grows without bound
 /// where a cell empties.
@@ -164,6 +169,7 @@ StepReport Flow<Dim>::step(double dt) {
   clock(Phase::redistribute_momentum);
 
   next_.pressure = state_.pressure;
+  apply_outer_pressure(domain_, next_liquid_, outer_pressure_, projection_, next_.pressure);
   add_uniform(grid.layout(), grid.cells(), u_bar_, dt, par.gravity, u_hat_);
   add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, -dt, u_hat_);
   CellVectors<Dim>& u_star = next_.u;
@@ -176,11 +182,12 @@ StepReport Flow<Dim>::step(double dt) {
   }
   clock(Phase::diffusion);
 
-  add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, dt, u_star);
   const double energy_star = kinetic_energy(grid, next_rho_, u_star);
-  report.projection = solve_pressure(domain_, u_star, next_rho_, next_liquid_, outer_pressure_, dt, par.linear,
-                                     projection_, next_.pressure);
-  add_pressure_gradient(domain_, next_.pressure, next_rho_, next_liquid_, -dt, next_.u);
+  pressure_change_.fill(0);
+  report.projection = solve_pressure(domain_, u_star, next_rho_, next_liquid_, no_pressure_, dt, par.linear,
+                                     projection_, pressure_change_);
+  add_pressure_gradient(domain_, pressure_change_, next_rho_, next_liquid_, -dt, next_.u);
+  for_each<Node>(grid.layout(), grid.nodes(), [&](Node n) { next_.pressure[n] += pressure_change_[n]; });
   report.projection_energy_change = kinetic_energy(grid, next_rho_, next_.u) - energy_star;
   scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, u_bar_, next_.acceleration);
   require_finite(grid, next_);

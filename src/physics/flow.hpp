@@ -101,7 +101,9 @@ class Flow {
   RedistributionWork<Dim> redistribution_;
   DiffusionWork<Dim> diffusion_;
   ProjectionWork<Dim> projection_;
-  NodeField outer_pressure_;  ///< of the gas around each node
+  NodeField outer_pressure_;   ///< of the gas around each node
+  NodeField pressure_change_;  ///< P^{n+1/2} - P^{n-1/2}
+  NodeField no_pressure_;      ///< 0
 };
 
 extern template class Flow<2>;

@@ -144,6 +144,15 @@ void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure,
 }
 
 template <int Dim>
+void apply_outer_pressure(const Domain<Dim>& domain, const CellMask& liquid, const NodeField& outer_pressure,
+                          ProjectionWork<Dim>& work, NodeField& pressure) {
+  mark_free_nodes(domain, liquid, work.free);
+  for_each<Node>(domain.layout(), domain.grid.nodes(), [&](Node n) {
+    if (!work.free[n]) pressure[n] = outer_pressure[n];
+  });
+}
+
+template <int Dim>
 SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, const CellField& rho,
                            const CellMask& liquid, const NodeField& outer_pressure, double dt,
                            const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure) {
@@ -168,6 +177,8 @@ SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_
 #define QUICKSAND_INSTANTIATE(Dim)                                                                                     \
   template void add_pressure_gradient(const Domain<Dim>&, const NodeField&, const CellField&, const CellMask&, double, \
                                       CellVectors<Dim>&);                                                              \
+  template void apply_outer_pressure(const Domain<Dim>&, const CellMask&, const NodeField&, ProjectionWork<Dim>&,      \
+                                     NodeField&);                                                                      \
   template SolveReport solve_pressure(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&, const CellMask&,  \
                                       const NodeField&, double, const SolveOptions&, ProjectionWork<Dim>&,             \
                                       NodeField&);

@@ -27,6 +27,11 @@ template <int Dim>
 void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure, const CellField& rho,
                            const CellMask& liquid, double factor_dt, CellVectors<Dim>& u);
 
+/// Sets a pressure to that of the gas on the nodes that touch a cell outside D.
+template <int Dim>
+void apply_outer_pressure(const Domain<Dim>& domain, const CellMask& liquid, const NodeField& outer_pressure,
+                          ProjectionWork<Dim>& work, NodeField& pressure);
+
 /// Solves dt div(1/rho grad P) = div u-bar* in D (51), with P = outer_pressure on nodes that touch a cell outside D.
 /// \param u_bar_star      (52), owned cells
 /// \param outer_pressure  pressure of the gas around each node
