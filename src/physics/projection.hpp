@@ -33,11 +33,11 @@ void apply_outer_pressure(const Domain<Dim>& domain, const CellMask& liquid, con
                           ProjectionWork<Dim>& work, NodeField& pressure);
 
 /// Solves dt div(1/rho grad P) = div u-bar* in D (51), with P = outer_pressure on nodes that touch a cell outside D.
-/// \param u_bar_star      (52), owned cells
-/// \param outer_pressure  pressure of the gas around each node
-/// \param pressure        the last step's pressure on entry (first guess), P^{n+1/2} on return; outer_pressure outside
-///                        D
-/// \throws NumericalError when the solve does not converge
+///
+/// The equation is linear: with u* in place of u-bar*, which holds the lagged pressure gradient, and no outer pressure
+/// it gives the change of P. \param u_bar_star      (52), owned cells \param outer_pressure  pressure of the gas around
+/// each node \param pressure        first guess on entry, P on return; outer_pressure outside D \throws NumericalError
+/// when the solve does not converge
 template <int Dim>
 SolveReport solve_pressure(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, const CellField& rho,
                            const CellMask& liquid, const NodeField& outer_pressure, double dt,

@@ -93,7 +93,10 @@ bool update_multipliers(ViscousProblem<Dim>& p, const DiffusionOptions& options,
     ++report.multiplier_updates;
     aim = goal(u);
     report.gap = bound(now);
-    if (report.gap <= aim) return true;
+    if (report.gap <= aim) {
+      report.stagnated = false;
+      return true;
+    }
     if (!solved) return false;
     if (k > 0 && now.value.gap > least_progress * last_gap) work.penalty *= penalty_growth;
     last_gap = now.value.gap;

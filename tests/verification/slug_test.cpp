@@ -135,6 +135,17 @@ TEST(Slug, RigidSlugStandsWithoutMotion) {
   EXPECT_LE(f.last_speed, 1e-8);
 }
 
+TEST(Slug, RegularizedSlugCreepsAtASpeedLikeOneOverAlpha) {
+  const auto creep = [](const char* alpha) {
+    return collapse<2>(fast('f', 1, {std::string("species.0.rheology.regularization=") + alpha}), {1.5}).last_speed;
+  };
+  const double soft = creep("100");
+  const double medium = creep("200");
+  const double stiff = creep("400");
+  expect_within(soft / medium, 2, 0.15);
+  expect_within(medium / stiff, 2, 0.15);
+}
+
 TEST(Slug, RigidSlurriesStopForGoodSlow) {
   const Slug d = collapse<2>(rigid(fast('d')), {3.5, 4});
   expect_within(d.shape[1].height, stopped_d.height, 0.04);
