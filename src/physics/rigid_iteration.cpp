@@ -23,8 +23,8 @@ constexpr double least_progress = 0.1;
 constexpr double penalty_growth = 10;
 /// Velocities are exact to this part of |u^| at the latest.
 constexpr double negligible_speed = 1e-12;
-/// The dual method takes many, cheap iterations: as many times as the others may.
-constexpr int dual_iterations = 1000;
+/// The dual method takes many, cheap iterations: as many times as the others may. Beyond, a smaller step is cheaper.
+constexpr int dual_iterations = 100;
 
 double square(double x) { return x * x; }
 
