@@ -166,6 +166,12 @@ void check_periodic(const Boundaries& b, Reading& reading) {
 
 void check_species(const std::vector<Species>& species, Reading& reading) {
   for (std::size_t i = 0; i < species.size(); ++i) {
+    const std::string law = child_path("species", i) + ".rheology";
+    const auto* power = std::get_if<HerschelBulkley>(&species[i].law);
+    if (power != nullptr && reading.clean(law) && power->index < 1 && power->regularization == 0) {
+      reading.problem(law + ".regularization",
+                      "must be greater than 0 where index is below 1: without it the viscosity at rest is infinite");
+    }
     for (std::size_t j = 0; j < i; ++j) {
       if (species[i].name.empty() || species[i].name != species[j].name) continue;
       const std::string first = child_path("species", j) + ".name";

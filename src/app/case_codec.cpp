@@ -1,6 +1,7 @@
 #include "app/case_codec.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <limits>
 
@@ -132,8 +133,32 @@ Codec<Vec<3>> gravity_codec() {
   return codec;
 }
 
+/// Pa s^n as a number, or as text with any unit of pressure and the word s^n: the unit depends on the index.
+Codec<double> consistency_codec() {
+  const auto pressure = quantity(dim::pressure, not_negative);
+  Codec<double> codec = pressure;
+  codec.read = [pressure](Reading& reading, const ConfigNode& node, double& out) {
+    constexpr std::string_view power = " s^n";
+    ConfigNode stress = node;
+    double number = 0;
+    const bool plain = std::from_chars(node.text.data(), node.text.data() + node.text.size(), number).ptr ==
+                       node.text.data() + node.text.size();
+    if (node.kind == ConfigNode::Kind::scalar && !plain) {
+      if (!node.text.ends_with(power)) {
+        reading.problem(node, "must be a number (in Pa s^n), or a pressure followed by s^n, such as 12 Pa s^n");
+        return;
+      }
+      stress.text.resize(stress.text.size() - power.size());
+    }
+    pressure.read(reading, stress, out);
+  };
+  return codec;
+}
+
 Codec<Law> law_codec() {
   const auto viscosity = quantity(dim::viscosity, not_negative);
+  const auto yield_stress = quantity(dim::pressure, not_negative);
+  const auto regularization = quantity(dim::time, not_negative);
   return tagged<Law>(
       "law",
       {
@@ -141,16 +166,44 @@ Codec<Law> law_codec() {
           alternative<Law, Newtonian>("newtonian",
                                       {required("viscosity", &Newtonian::viscosity, viscosity, "dynamic viscosity")},
                                       "stress proportional to the strain rate"),
+          alternative<Law, Bingham>(
+              "bingham",
+              {required("viscosity", &Bingham::viscosity, viscosity, "viscosity above the yield stress"),
+               required("yield_stress", &Bingham::yield_stress, yield_stress, "stress below which it is rigid")},
+              "Bingham's law: rigid below the yield stress"),
           alternative<Law, Papanastasiou>(
               "papanastasiou",
               {
                   required("viscosity", &Papanastasiou::viscosity, viscosity, "viscosity above the yield stress"),
-                  required("yield_stress", &Papanastasiou::yield_stress, quantity(dim::pressure, not_negative),
+                  required("yield_stress", &Papanastasiou::yield_stress, yield_stress,
                            "stress below which there is hardly any flow"),
-                  required("regularization", &Papanastasiou::regularization, quantity(dim::time, not_negative),
+                  required("regularization", &Papanastasiou::regularization, regularization,
                            "exponent of the regularization, a time; larger is closer to Bingham's law"),
               },
               "Bingham's law made smooth by an exponential"),
+          alternative<Law, HerschelBulkley>(
+              "herschel_bulkley",
+              {
+                  required("consistency", &HerschelBulkley::consistency, consistency_codec(),
+                           "stress beyond the yield stress at unit strain rate"),
+                  required("index", &HerschelBulkley::index, quantity(dim::none, positive),
+                           "exponent of the strain rate: below 1 shear thins, above it thickens"),
+                  required("yield_stress", &HerschelBulkley::yield_stress, yield_stress,
+                           "stress below which there is hardly any flow"),
+                  required("regularization", &HerschelBulkley::regularization, regularization,
+                           "exponent of the regularization, a time; not 0 where index is below 1"),
+              },
+              "a power of the strain rate beyond a yield stress, made smooth by an exponential"),
+          alternative<Law, Casson>(
+              "casson",
+              {
+                  required("viscosity", &Casson::viscosity, viscosity, "viscosity at large strain rates"),
+                  required("yield_stress", &Casson::yield_stress, yield_stress,
+                           "stress below which there is hardly any flow"),
+                  required("regularization", &Casson::regularization, regularization,
+                           "exponent of the regularization, a time; larger is closer to Casson's law"),
+              },
+              "roots of yield stress and viscous stress add up to that of the stress, made smooth by an exponential"),
       });
 }
 
@@ -213,7 +266,8 @@ Codec<TimeSettings> time_codec() {
 Codec<SolverSettings> solver_codec() {
   const auto iteration = choice<ViscousIteration>({{"newton", ViscousIteration::newton},
                                                    {"anderson", ViscousIteration::anderson},
-                                                   {"picard", ViscousIteration::picard}});
+                                                   {"picard", ViscousIteration::picard},
+                                                   {"dual", ViscousIteration::dual}});
   const auto tolerance = quantity(dim::none, {0, 0.1, true});
   return object<SolverSettings>({
       defaulted("liquid_threshold", &SolverSettings::liquid_threshold, quantity(dim::none, {0, 0.99, true}),

@@ -41,6 +41,17 @@ std::string law_text(const Law& law) {
   struct Printer {
     std::string operator()(const Inviscid&) const { return "inviscid"; }
     std::string operator()(const Newtonian& l) const { return "newtonian, viscosity " + shortest(l.viscosity); }
+    std::string operator()(const Bingham& l) const {
+      return "bingham, viscosity " + shortest(l.viscosity) + ", yield stress " + shortest(l.yield_stress);
+    }
+    std::string operator()(const HerschelBulkley& l) const {
+      return "herschel_bulkley, consistency " + shortest(l.consistency) + ", index " + shortest(l.index) +
+             ", yield stress " + shortest(l.yield_stress) + ", regularization " + shortest(l.regularization);
+    }
+    std::string operator()(const Casson& l) const {
+      return "casson, viscosity " + shortest(l.viscosity) + ", yield stress " + shortest(l.yield_stress) +
+             ", regularization " + shortest(l.regularization);
+    }
     std::string operator()(const Papanastasiou& l) const {
       return "papanastasiou, viscosity " + shortest(l.viscosity) + ", yield stress " + shortest(l.yield_stress) +
              ", regularization " + shortest(l.regularization);

@@ -60,6 +60,8 @@ void RunStatistics::add(const StepReport& report, const std::vector<double>& vol
   }
   linear_iterations_ += report.diffusion.linear_iterations;
   fallbacks_ += report.diffusion.fell_back ? 1 : 0;
+  stagnated_ += report.diffusion.stagnated ? 1 : 0;
+  largest_gap_ = std::max(largest_gap_, report.diffusion.gap);
 }
 
 Json RunStatistics::summary(const std::string& status, const std::string& message) const {
@@ -93,6 +95,8 @@ Json RunStatistics::summary(const std::string& status, const std::string& messag
   }
   json["phases"]["diffusion"]["linear_iterations"] = linear_iterations_;
   json["phases"]["diffusion"]["fallbacks"] = fallbacks_;
+  json["phases"]["diffusion"]["stagnated"] = stagnated_;
+  json["phases"]["diffusion"]["largest_gap"] = largest_gap_;
   return json;
 }
 

@@ -53,6 +53,8 @@ class RunStatistics {
   long steps_beyond_cfl_ = 0;
   long fallbacks_ = 0;
   std::optional<std::pair<bool, double>> steadiness_;
+  long stagnated_ = 0;
+  double largest_gap_ = 0;
   std::vector<double> initial_volume_;
   std::vector<double> volume_error_;
   double energy_scale_ = 0;

@@ -1,25 +1,14 @@
 #include "physics/diffusion.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
-#include "core/vector_fields.hpp"
-#include "physics/velocity_solver.hpp"
-#include "physics/viscous_functional.hpp"
-#include "solvers/anderson.hpp"
+#include "physics/rigid_iteration.hpp"
+#include "physics/viscous_iteration.hpp"
 
 namespace quicksand {
 
 namespace {
-
-/// Newton's method gives up, in favour of Anderson's, when a line search has halved the step this often.
-constexpr int max_halvings = 12;
-constexpr int anderson_depth = 5;
-/// A step that would change the velocity by less than this part of it is round-off: bodies in rigid motion have no
-/// stress to measure a gradient against.
-constexpr double smallest_change = 1e-12;
 
 /// Number of active elements that a cell is a corner of.
 template <int Dim>
@@ -69,123 +58,19 @@ void mark_participants(const Domain<Dim>& domain, const CellField& rho, Diffusio
   work.matrix.set_box(bounding_box<Cell>(domain.layout(), grid.cells(), [&](Cell c) { return work.mass[0][c] > 0; }));
 }
 
-/// sqrt(sum r^2 / m): the gradient norm in which all cells count alike.
+/// sqrt(sum m |u|^2) over the box.
 template <int Dim>
-double gradient_norm(const Domain<Dim>& domain, const DiffusionWork<Dim>& work, const CellVectors<Dim>& gradient) {
+double mass_norm(const Domain<Dim>& domain, const DiffusionWork<Dim>& work, const CellVectors<Dim>& u) {
   double square = 0;
   for (int d = 0; d < Dim; ++d) {
-    square += sum<Cell>(domain.layout(), work.matrix.box(), [&](Cell c) {
-      return work.mass[d][c] > 0 ? gradient[d][c] * gradient[d][c] / work.mass[d][c] : 0.0;
-    });
+    square +=
+        sum<Cell>(domain.layout(), work.matrix.box(), [&](Cell c) { return work.mass[d][c] * u[d][c] * u[d][c]; });
   }
   return std::sqrt(square);
 }
 
-/// What the nonlinear iterations share.
-template <int Dim>
-struct Problem {
-  const Domain<Dim>& domain;
-  const CellVectors<Dim>& u_hat;
-  double dt;
-  DiffusionWork<Dim>& work;
-  double target;      ///< gradient norm to reach
-  double least_drop;  ///< decrease of the functional that is round-off
-};
-
-/// Newton's method with backtracking on the functional. Returns whether the target was reached; u is never worse than
-/// before.
-template <int Dim>
-bool iterate_newton(const Problem<Dim>& p, int max_iterations, CellVectors<Dim>& u, DiffusionReport& report) {
-  DiffusionWork<Dim>& work = p.work;
-  double value = evaluate_functional(p.domain, p.u_hat, u, p.dt, work, work.gradient);
-  double norm = gradient_norm(p.domain, work, work.gradient);
-  double last_norm = norm;
-  for (int k = 0; norm > p.target; ++k) {
-    if (k == max_iterations) return false;
-    assemble_matrix(p.domain, u, p.dt, Linearisation::tangent, work);
-    for (int d = 0; d < Dim; ++d) work.update[d].fill(0);
-    // Inexact Newton: as accurate as the quadratic convergence seen so far deserves.
-    const double forcing = k == 0 ? 1e-2 : std::clamp(0.5 * (norm / last_norm) * (norm / last_norm), 1e-4, 1e-2);
-    const SolveReport linear =
-        solve_velocity(work.matrix, work.gradient, work.update, std::max(forcing, 0.1 * p.target / norm));
-    report.linear_iterations += linear.iterations;
-    ++report.iterations;
-    const double descent = dot<Cell>(p.domain.layout(), work.matrix.box(), work.gradient, work.update);
-    if (std::abs(descent) <= p.least_drop) return true;
-    if (!(descent > 0)) return false;
-    // Differences of the functional below its round-off can't tell better from worse.
-    const double noise = 1e-13 * std::abs(value);
-    double length = 1;
-    double trial_value = 0;
-    int halvings = 0;
-    for (;; length *= 0.5, ++halvings) {
-      if (halvings > max_halvings) return false;
-      add_scaled(p.domain.layout(), work.matrix.box(), u, -length, work.update, work.trial);
-      trial_value = evaluate_functional(p.domain, p.u_hat, work.trial, p.dt, work, work.trial_gradient);
-      if (trial_value <= value - 1e-4 * length * descent + noise) break;
-    }
-    update_plastic_stress(p.domain, u, work.update, work);
-    std::swap(u, work.trial);
-    std::swap(work.gradient, work.trial_gradient);
-    value = trial_value;
-    last_norm = norm;
-    norm = gradient_norm(p.domain, work, work.gradient);
-    if (!std::isfinite(norm)) return false;
-  }
-  return true;
-}
-
-template <int Dim>
-Eigen::VectorXd pack(const Problem<Dim>& p, const CellVectors<Dim>& u) {
-  const Box<Dim>& box = p.work.matrix.box();
-  Eigen::VectorXd x(Dim * box.size());
-  const Rows<Dim> rows(p.domain.layout(), box);
-  Eigen::Index k = 0;
-  for (int d = 0; d < Dim; ++d) {
-    for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
-      for (int i = 0; i < rows.length; ++i) x[k++] = u[d][Cell{rows.start(r) + i}];
-    }
-  }
-  return x;
-}
-
-template <int Dim>
-void unpack(const Problem<Dim>& p, const Eigen::VectorXd& x, CellVectors<Dim>& u) {
-  const Rows<Dim> rows(p.domain.layout(), p.work.matrix.box());
-  Eigen::Index k = 0;
-  for (int d = 0; d < Dim; ++d) {
-    for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
-      for (int i = 0; i < rows.length; ++i) u[d][Cell{rows.start(r) + i}] = x[k++];
-    }
-  }
-}
-
-/// The report's iteration (49), plain or with Anderson acceleration.
-template <int Dim>
-bool iterate_picard(const Problem<Dim>& p, int max_iterations, bool accelerate, CellVectors<Dim>& u,
-                    DiffusionReport& report) {
-  DiffusionWork<Dim>& work = p.work;
-  Anderson anderson(anderson_depth);
-  for (int k = 0;; ++k) {
-    evaluate_functional(p.domain, p.u_hat, u, p.dt, work, work.gradient);
-    const double norm = gradient_norm(p.domain, work, work.gradient);
-    if (norm <= p.target) return true;
-    if (k == max_iterations || !std::isfinite(norm)) return false;
-    assemble_matrix(p.domain, u, p.dt, Linearisation::secant, work);
-    for (int d = 0; d < Dim; ++d) work.update[d].fill(0);
-    const SolveReport linear = solve_velocity(work.matrix, work.gradient, work.update, 1e-3);
-    report.linear_iterations += linear.iterations;
-    ++report.iterations;
-    if (std::abs(dot<Cell>(p.domain.layout(), work.matrix.box(), work.gradient, work.update)) <= p.least_drop)
-      return true;
-    add_scaled(p.domain.layout(), work.matrix.box(), u, -1.0, work.update, work.trial);
-    if (accelerate) {
-      unpack(p, anderson.next(pack(p, u), pack(p, work.trial)), u);
-    } else {
-      std::swap(u, work.trial);
-    }
-  }
-}
+bool has_smooth_plasticity(const Species& s) { return rheology(s.law).is_nonlinear(); }
+bool has_rigid_plasticity(const Species& s) { return rheology(s.law).rigid_yield_stress > 0; }
 
 }  // namespace
 
@@ -193,15 +78,20 @@ template <int Dim>
 DiffusionWork<Dim>::DiffusionWork(const Domain<Dim>& domain, const std::vector<Species>& species)
     : elements(domain),
       potential(domain.layout()),
+      gap(domain.layout()),
       matrix(domain.layout()),
       mass(domain.layout()),
       gradient(domain.layout()),
       trial_gradient(domain.layout()),
       update(domain.layout()),
       trial(domain.layout()) {
-  const bool plastic =
-      std::any_of(species.begin(), species.end(), [](const Species& s) { return rheology(s.law).yield_stress > 0; });
-  if (plastic) stress = Field<Node, PointStresses<Dim>>(domain.layout());
+  if (std::any_of(species.begin(), species.end(), has_smooth_plasticity)) {
+    stress = Field<Node, PointStresses<Dim>>(domain.layout());
+  }
+  if (std::any_of(species.begin(), species.end(), has_rigid_plasticity)) {
+    multiplier = Field<Node, PointStresses<Dim>>(domain.layout());
+    rigid_stress = multiplier;
+  }
 }
 
 template <int Dim>
@@ -215,35 +105,23 @@ DiffusionReport diffuse(const Domain<Dim>& domain, const CellField& rho, const C
   }
   DiffusionReport report;
   if (work.matrix.box().empty()) return report;
-  double twice_energy = 0;
-  for (int d = 0; d < Dim; ++d) {
-    twice_energy += sum<Cell>(domain.layout(), work.matrix.box(),
-                              [&](Cell c) { return work.mass[d][c] * u_hat[d][c] * u_hat[d][c]; });
-  }
-  Problem<Dim> problem{domain, u_hat, dt, work, 0, smallest_change * smallest_change * twice_energy};
+  ViscousProblem<Dim> problem{domain, u_hat, dt, work, mass_norm(domain, work, u_hat), 0, {}};
+  const bool rigid = work.multiplier.size() > 0;
+  if (rigid) prepare_multipliers(domain, rho, dt, work);
   // Start from u^ or from the guess, whichever lies lower.
-  const double value_hat = evaluate_functional(domain, u_hat, u_hat, dt, work, work.gradient);
-  const double norm_hat = gradient_norm(domain, work, work.gradient);
-  problem.target = options.tolerance * norm_hat;
-  if (!(evaluate_functional(domain, u_hat, u, dt, work, work.gradient) < value_hat)) u = u_hat;
-  work.trial = u;  // the iterations swap the two, and write the box only
-
-  switch (options.iteration) {
-    case ViscousIteration::newton:
-      report.converged = iterate_newton(problem, options.max_iterations, u, report);
-      if (!report.converged) {
-        report.fell_back = true;
-        report.converged = iterate_picard(problem, 10 * options.max_iterations, true, u, report);
-      }
-      break;
-    case ViscousIteration::anderson:
-      report.converged = iterate_picard(problem, 10 * options.max_iterations, true, u, report);
-      break;
-    case ViscousIteration::picard:
-      report.converged = iterate_picard(problem, 10 * options.max_iterations, false, u, report);
-      break;
+  const ViscousProgress hat = progress_at(problem, u_hat);
+  if (!(evaluate_functional(domain, u_hat, u, dt, work, work.gradient).value < hat.value.value)) u = u_hat;
+  if (rigid) {
+    report.converged = iterate_multipliers(problem, options, u, report);
+  } else {
+    problem.target = options.tolerance * hat.norm;
+    problem.reached = [&](const ViscousProgress& now) { return now.norm <= problem.target; };
+    report.converged = iterate(problem, options.iteration, options.max_iterations, u, report);
+    report.gap = 0.5 * std::pow(gradient_norm(domain, work, work.gradient), 2);
   }
-  report.residual = norm_hat > 0 ? gradient_norm(domain, work, work.gradient) / norm_hat : 0.0;
+  const double energy = stress_energy(problem, u);
+  report.gap = energy > 0 ? report.gap / energy : 0.0;
+  report.residual = hat.norm > 0 ? gradient_norm(domain, work, work.gradient) / hat.norm : 0.0;
   return report;
 }
 

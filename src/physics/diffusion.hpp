@@ -11,7 +11,10 @@
 /// method is slow far from the solution; with the plastic stress as an unknown of its own (Chan, Golub and Mulet 1999)
 /// it is not. The law is evaluated on the composition phi_i / sum phi at full strength: (43b) describes sand thinned by
 /// water, not by void; and on phi^{n+1} where the report takes the mean with phi^n.
+#include <string_view>
+
 #include "core/domain.hpp"
+#include "physics/rigid_yield.hpp"
 #include "physics/solver_settings.hpp"
 #include "physics/stress_elements.hpp"
 #include "physics/velocity_matrix.hpp"
@@ -21,17 +24,24 @@ namespace quicksand {
 
 struct DiffusionOptions {
   ViscousIteration iteration = ViscousIteration::newton;
-  double tolerance = 1e-4;   ///< gradient norm relative to that at u^ (norm weighted by 1/m)
+  /// Gradient norm relative to that at u^ (norm weighted by 1/m); with rigid yield stresses the error of u* relative to
+  /// |u* - u^|, as the duality gap bounds it
+  double tolerance = 1e-4;
   int max_iterations = 100;  ///< of Newton's method; ten times as many for the others
 };
 
 /// What became of a diffusion step.
 struct DiffusionReport {
   bool converged = true;
-  bool fell_back = false;     ///< Newton gave up and Anderson took over
-  int iterations = 0;         ///< nonlinear
+  bool fell_back = false;  ///< another method had to take over
+  bool stagnated = false;  ///< ended at round-off of the functional, short of the tolerance but at a negligible error
+  int iterations = 0;      ///< nonlinear
   int linear_iterations = 0;  ///< conjugate gradients in all
-  double residual = 0;        ///< relative gradient norm reached
+  int multiplier_updates = 0;
+  double residual = 0;  ///< relative gradient norm reached
+  /// Bound on 1/2 sum m |u - u*|^2, the error's energy, relative to 1/2 sum m |u - u^|^2: duality gap and gradient
+  double gap = 0;
+  std::string_view method = "none";  ///< that ended the step
 };
 
 /// Plastic stresses at the points of an element, as symmetric tensors like StrainRate.
@@ -45,9 +55,14 @@ template <int Dim>
 struct DiffusionWork {
   StressElements<Dim> elements;
   NodeField potential;  ///< dt W Phi summed over an element's points
+  NodeField gap;        ///< dt W (tau_y s - <q, Delta>) likewise
   /// The plastic stress as an unknown of its own, in the primal-dual Newton method; carried from step to step. Has a
   /// size only when some species yields.
   Field<Node, PointStresses<Dim>> stress;
+  /// Rigid yield stresses: the multiplier p of rigid_yield.hpp, carried from step to step, and the estimate of q in
+  /// Newton's method. Have a size only when some species has Bingham's law.
+  Field<Node, PointStresses<Dim>> multiplier, rigid_stress;
+  double penalty = 0;  ///< r of rigid_yield.hpp
   VelocityMatrix<Dim> matrix;
   /// m of each component in cells that take part, 0 elsewhere. A wall that holds a component takes the quarter of the
   /// cell next to it.
@@ -55,6 +70,11 @@ struct DiffusionWork {
   CellVectors<Dim> gradient, trial_gradient, update, trial;
 
   DiffusionWork(const Domain<Dim>& domain, const std::vector<Species>& species);
+
+  /// The rigid yield stress at point q of element n for the strain rate s.
+  RigidYield<Dim> rigid_yield(Node n, int q, const StrainRate<Dim>& s) const {
+    return {multiplier[n].at[q], elements.rheology[n].rigid_yield_stress, penalty, s};
+  }
 };
 
 /// Solves for u* after mark_stress_elements().

@@ -167,6 +167,14 @@ void gather(const DualElement<Dim>& e, const CellVectors<Dim>& u, double (&corne
   }
 }
 
+/// The transpose of gather_change(): adds forces on the corners to those on the cells.
+template <int Dim>
+void scatter(const DualElement<Dim>& e, const double (&force)[corner_count<Dim>][Dim], CellVectors<Dim>& cells) {
+  for (int k = 0; k < corner_count<Dim>; ++k) {
+    for (int c = 0; c < Dim; ++c) cells[c][e.corner[k]] += e.factor[k][c] * force[k][c];
+  }
+}
+
 /// Strain rate at one point: Delta of (30), its hoop component apart, and s = sqrt(1/2 Delta:Delta).
 template <int Dim>
 struct StrainRate {

@@ -140,6 +140,7 @@ void Flow<Dim>::forget_failed_step() {
   for (CellField& H_i : redistribution_.H_species) H_i.fill(0);
   mac_.potential.fill(0);
   diffusion_.stress.fill({});
+  diffusion_.multiplier.fill({});
   mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
 }
 

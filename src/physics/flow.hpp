@@ -75,6 +75,11 @@ class Flow {
   /// Dual mesh and the rheology of its elements in the current state.
   const StressElements<Dim>& stress_elements() const { return diffusion_.elements; }
 
+  /// Stresses of Bingham's law at the stress points in the last step, and the viscosity that stood for infinity; of
+  /// size 0 when no species has that law.
+  const Field<Node, PointStresses<Dim>>& rigid_stress() const { return diffusion_.multiplier; }
+  double rigid_viscosity() const { return diffusion_.penalty; }
+
   /// Makes the flow ready to advance after fractions and velocities of state() were set: everything that follows from
   /// the fractions, and the pressure and acceleration under gravity. \throws NumericalError when the pressure solve
   /// fails

@@ -4,8 +4,9 @@
 
 namespace quicksand {
 
-/// Iteration for the nonlinear viscous step (48)-(49).
-enum class ViscousIteration { newton, anderson, picard };
+/// Iteration for the nonlinear viscous step (48)-(49). Rigid yield stresses (35) are added by the method of multipliers
+/// around the first three; `dual` is an accelerated gradient method for their stresses.
+enum class ViscousIteration { newton, anderson, picard, dual };
 
 /// Thresholds, tolerances and limits of the solves of one time step.
 struct SolverSettings {

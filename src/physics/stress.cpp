@@ -1,11 +1,16 @@
 #include "physics/stress.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace quicksand {
 
 namespace {
 
 /// A regularised law reaches the yield stress nowhere; within a per cent of it the material counts as yielded.
 constexpr double yielding_share = 0.99;
+/// The dual stress of a point that yields under Bingham's law is the yield stress up to round-off.
+constexpr double rigid_share = 1 - 1e-9;
 
 }  // namespace
 
@@ -23,15 +28,24 @@ StressFields evaluate_stress(const Flow<Dim>& flow) {
     for (int q = 0; q < point_count<Dim>; ++q) {
       if (!(e.weight(q) > 0)) continue;
       const Rheology& rheology = elements.rheology[n];
-      const double s = strain_rate(e, q, corner).scalar;
-      const double f = effective_viscosity(rheology, s);
+      const StrainRate<Dim> s = strain_rate(e, q, corner);
+      double f = effective_viscosity(rheology, s.scalar);
+      double magnitude = f * s.scalar;
+      bool unyielded = magnitude < yielding_share * rheology.regularised_yield_stress();
+      if (rheology.rigid_yield_stress > 0) {
+        const StrainRate<Dim>& rigid = flow.rigid_stress()[n].at[q];
+        const double size = std::sqrt(inner(rigid, rigid));
+        magnitude = add_scaled(rigid, f, s).scalar;
+        f += std::min(size / std::max(s.scalar, 1e-300), flow.rigid_viscosity());
+        unyielded = size < rigid_share * rheology.rigid_yield_stress;
+      }
       for (int k = 0; k < corner_count<Dim>; ++k) {
         const double share = e.weight(q) * mid_edge_shapes<Dim>.value[q][k];
         const Cell c = e.corner[k];
         weights[c] += share;
         fields.viscosity[c] += share * f;
-        fields.magnitude[c] += share * f * s;
-        fields.unyielded[c] += f * s < yielding_share * rheology.yield_stress ? share : 0.0;
+        fields.magnitude[c] += share * magnitude;
+        fields.unyielded[c] += unyielded ? share : 0.0;
       }
     }
   });

@@ -7,9 +7,12 @@ namespace quicksand {
 
 /// Averages over the stress points around each cell; 0 where no active element touches the cell.
 struct StressFields {
-  CellField viscosity;  ///< effective viscosity f of (43a)
+  /// Effective viscosity f of (43a); where Bingham's law is rigid the penalty of the last step stands for infinity.
+  CellField viscosity;
   CellField magnitude;  ///< sqrt(1/2 T:T) = f s
-  CellField unyielded;  ///< share of the points around the cell whose stress is below 0.99 of the yield stress (35b)
+  /// Share of the points around the cell that have not yielded (35b): rigid in the last step under Bingham's law, below
+  /// 0.99 of the yield stress under regularised laws.
+  CellField unyielded;
 };
 
 template <int Dim>

@@ -7,26 +7,20 @@ namespace quicksand {
 
 namespace {
 
-bool stiff(const Rheology& r) { return r.viscosity > 0 || r.yield_stress * r.regularization > 0; }
-
 /// Law of an element from the composition of its corners.
 template <int Dim>
 Rheology mix(const DualElement<Dim>& e, const std::vector<Species>& species, const std::vector<Rheology>& pure,
              const Fractions& phi, double total) {
-  Rheology mixed;
-  double alpha_sum = 0;
+  RheologySum mixed;
   for (std::size_t s = 0; s < species.size(); ++s) {
     double part = 0;
     for (const Cell c : e.corner) part += phi[s][c];
     const double composition = std::clamp(part / total, 0.0, 1.0);
     const Concentration& k = species[s].concentration;
-    const double yield = pure[s].yield_stress * concentration_factor(k.yield_exponent, composition);
-    mixed.viscosity += pure[s].viscosity * concentration_factor(k.viscosity_exponent, composition);
-    mixed.yield_stress += yield;
-    alpha_sum += yield * pure[s].regularization;
+    mixed.add(pure[s], concentration_factor(k.viscosity_exponent, composition),
+              concentration_factor(k.yield_exponent, composition));
   }
-  mixed.regularization = mixed.yield_stress > 0 ? alpha_sum / mixed.yield_stress : 0.0;
-  return mixed;
+  return mixed.result();
 }
 
 /// Calls body(neighbour) for the up to 3^Dim - 1 elements around node i that belong to the domain, not counting the
@@ -55,7 +49,7 @@ bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>&
   std::vector<Rheology> pure;
   for (const Species& s : species) pure.push_back(rheology(s.law));
   elements.active.fill(0);
-  if (std::none_of(pure.begin(), pure.end(), stiff)) return false;
+  if (std::none_of(pure.begin(), pure.end(), [](const Rheology& r) { return r.carries_stress(); })) return false;
 
   const Grid<Dim>& grid = domain.grid;
   const Layout<Dim>& layout = domain.layout();
@@ -71,7 +65,7 @@ bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>&
     liquid[n] = whole / corner_count<Dim> * e.volume();
     if (empty) return;
     elements.rheology[n] = mix(e, species, pure, phi, whole);
-    elements.active[n] = stiff(elements.rheology[n]) ? 1 : 0;
+    elements.active[n] = elements.rheology[n].carries_stress() ? 1 : 0;
   });
   // An inactive element leaves each active neighbour an equal part of its liquid.
   NodeField& part = elements.part;

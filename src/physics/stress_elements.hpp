@@ -35,8 +35,10 @@ double concentration_factor(double kappa, double c);
 
 /// Finds the active elements, their rheology and their shares for the given fractions.
 ///
-/// The law of an element follows from the mean composition c_i = phi_i / sum phi of its corner cells: viscosities and
-/// yield stresses of all species, each times (43b), add up; alpha is their mean weighted by yield stress. Elements with
+/// The law of an element follows from the mean composition c_i = phi_i / sum phi of its corner cells: the stresses of
+/// all species at the common strain rate add up, with viscosities, consistencies and yield stresses each times (43b).
+/// Of several species with laws of one kind the exponents (alpha, n) are means: alpha weighted by yield stress, n by
+/// consistency. Elements with
 /// an (almost) empty corner, or whose law is inviscid, are inactive: their velocity gradient would mean nothing. The
 /// liquid in them is shared out among the active elements around them, so that the shares add up to the liquid's volume
 /// and a body keeps its strength up to its surface. \returns whether any element is active

@@ -62,45 +62,73 @@ Eigen::SparseMatrix<double> sparse_lower(const VelocityMatrix<Dim>& matrix, cons
   return sparse;
 }
 
-/// Solution by factors; false when they can't be found, because the matrix is not positive definite to round-off.
-template <int Dim>
-bool solve_direct(const VelocityMatrix<Dim>& matrix, const CellVectors<Dim>& b, CellVectors<Dim>& x) {
-  std::vector<Cell> cells;
-  const Field<Cell, int> number = number_cells(matrix.component(0).layout, matrix.box(), cells);
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors(sparse_lower(matrix, cells, number));
-  if (factors.info() != Eigen::Success) return false;
-  Eigen::VectorXd right(static_cast<Eigen::Index>(cells.size()) * Dim);
-  for (const Cell c : cells) {
-    for (int a = 0; a < Dim; ++a) right[Dim * number[c] + a] = b[a][c];
-  }
-  const Eigen::VectorXd solution = factors.solve(right);
-  if (!solution.allFinite()) return false;
-  for (const Cell c : cells) {
-    for (int a = 0; a < Dim; ++a) x[a][c] = solution[Dim * number[c] + a];
-  }
-  return true;
-}
-
 }  // namespace
 
+/// Sparse Cholesky factors; unusable where the matrix is not positive definite to round-off.
 template <int Dim>
-SolveReport solve_velocity(const VelocityMatrix<Dim>& matrix, const CellVectors<Dim>& b, CellVectors<Dim>& x,
-                           double relative_tolerance) {
-  if (Dim == 2 && matrix.box().size() <= largest_direct && solve_direct(matrix, b, x)) {
+struct VelocitySolver<Dim>::Factors {
+  std::vector<Cell> cells;
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors;
+
+  explicit Factors(const VelocityMatrix<Dim>& matrix) {
+    const Field<Cell, int> number = number_cells(matrix.component(0).layout, matrix.box(), cells);
+    factors.compute(sparse_lower(matrix, cells, number));
+  }
+  /// Returns false when the solution is not finite.
+  bool solve(const CellVectors<Dim>& b, CellVectors<Dim>& x) const {
+    if (factors.info() != Eigen::Success) return false;
+    Eigen::VectorXd vector(static_cast<Eigen::Index>(cells.size()) * Dim);
+    Eigen::Index k = 0;
+    for (const Cell c : cells) {
+      for (int a = 0; a < Dim; ++a) vector[k++] = b[a][c];
+    }
+    vector = factors.solve(vector).eval();
+    if (!vector.allFinite()) return false;
+    k = 0;
+    for (const Cell c : cells) {
+      for (int a = 0; a < Dim; ++a) x[a][c] = vector[k++];
+    }
+    return true;
+  }
+};
+
+/// Multigrid of the blocks of equal components.
+template <int Dim>
+struct VelocitySolver<Dim>::Cycles {
+  std::vector<Multigrid<Dim, Cell>> of_component;
+
+  explicit Cycles(const VelocityMatrix<Dim>& matrix) {
+    of_component.reserve(static_cast<std::size_t>(Dim));
+    for (int d = 0; d < Dim; ++d) of_component.emplace_back(matrix.component(d), MultigridKind::pfmg);
+  }
+};
+
+template <int Dim>
+VelocitySolver<Dim>::VelocitySolver(const VelocityMatrix<Dim>& matrix) : matrix_(&matrix) {
+  if (Dim == 2 && matrix.box().size() <= largest_direct) factors_ = std::make_unique<Factors>(matrix);
+}
+template <int Dim>
+VelocitySolver<Dim>::~VelocitySolver() = default;
+template <int Dim>
+VelocitySolver<Dim>::VelocitySolver(VelocitySolver&&) noexcept = default;
+template <int Dim>
+VelocitySolver<Dim>& VelocitySolver<Dim>::operator=(VelocitySolver&&) noexcept = default;
+
+template <int Dim>
+SolveReport VelocitySolver<Dim>::solve(const CellVectors<Dim>& b, CellVectors<Dim>& x, double relative_tolerance) {
+  if (factors_ && factors_->solve(b, x)) {
     return {.converged = true, .iterations = 1, .residual = 0, .method = "cholesky"};
   }
-  std::vector<Multigrid<Dim, Cell>> cycles;
-  cycles.reserve(static_cast<std::size_t>(Dim));
-  for (int d = 0; d < Dim; ++d) cycles.emplace_back(matrix.component(d), MultigridKind::pfmg);
+  if (!cycles_) cycles_ = std::make_unique<Cycles>(*matrix_);
   const auto precondition = [&](const CellVectors<Dim>& r, CellVectors<Dim>& z) {
-    for (int d = 0; d < Dim; ++d) cycles[static_cast<std::size_t>(d)].cycle(r[d], z[d]);
+    for (int d = 0; d < Dim; ++d) cycles_->of_component[static_cast<std::size_t>(d)].cycle(r[d], z[d]);
   };
-  const auto apply = [&](CellVectors<Dim>& v, CellVectors<Dim>& y) { matrix.apply(v, y); };
-  return conjugate_gradients<Cell>(matrix.component(0).layout, matrix.box(), apply, precondition, b, x,
+  const auto apply = [&](CellVectors<Dim>& v, CellVectors<Dim>& y) { matrix_->apply(v, y); };
+  return conjugate_gradients<Cell>(matrix_->component(0).layout, matrix_->box(), apply, precondition, b, x,
                                    {.relative = relative_tolerance, .max_iterations = max_iterations});
 }
 
-template SolveReport solve_velocity(const VelocityMatrix<2>&, const CellVectors<2>&, CellVectors<2>&, double);
-template SolveReport solve_velocity(const VelocityMatrix<3>&, const CellVectors<3>&, CellVectors<3>&, double);
+template class VelocitySolver<2>;
+template class VelocitySolver<3>;
 
 }  // namespace quicksand

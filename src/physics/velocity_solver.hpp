@@ -1,16 +1,33 @@
 #pragma once
 /// \file
 /// Linear systems of the viscous step.
+#include <memory>
+
 #include "physics/velocity_matrix.hpp"
 #include "solvers/conjugate_gradients.hpp"
 
 namespace quicksand {
 
-/// Solves matrix x = b from the guess x: small plane systems by sparse Cholesky factors, the others by conjugate
-/// gradients with one multigrid cycle per component as preconditioner. \param matrix  symmetric positive definite
-/// \param relative_tolerance  of the residual; factors reach round-off
+/// A matrix made ready to be solved any number of times: small plane systems by sparse Cholesky factors, the others by
+/// conjugate gradients with one multigrid cycle per component as preconditioner.
 template <int Dim>
-[[nodiscard]] SolveReport solve_velocity(const VelocityMatrix<Dim>& matrix, const CellVectors<Dim>& b,
-                                         CellVectors<Dim>& x, double relative_tolerance);
+class VelocitySolver {
+ public:
+  /// \param matrix  symmetric positive definite; must neither change nor go while the solver is in use
+  explicit VelocitySolver(const VelocityMatrix<Dim>& matrix);
+  ~VelocitySolver();
+  VelocitySolver(VelocitySolver&&) noexcept;
+  VelocitySolver& operator=(VelocitySolver&&) noexcept;
+
+  /// Solves matrix x = b from the guess x. \param relative_tolerance  of the residual; factors reach round-off
+  [[nodiscard]] SolveReport solve(const CellVectors<Dim>& b, CellVectors<Dim>& x, double relative_tolerance);
+
+ private:
+  struct Factors;
+  struct Cycles;
+  const VelocityMatrix<Dim>* matrix_;
+  std::unique_ptr<Factors> factors_;
+  std::unique_ptr<Cycles> cycles_;  ///< set up when the factors can't do
+};
 
 }  // namespace quicksand

@@ -1,5 +1,7 @@
 #include "physics/viscous_functional.hpp"
 
+#include "physics/rigid_yield.hpp"
+
 namespace quicksand {
 
 namespace {
@@ -25,14 +27,34 @@ struct PointShapes {
   }
 };
 
-/// The factor k for which f_p I + k sym(S Delta) is the derivative of the plastic stress f_p Delta with respect to
-/// Delta, given its present estimate S; reduced where S is so large that the matrix would lose its definiteness.
+/// The factor k for which f I + k sym(S Delta) is the derivative of the plastic stress f Delta with respect to Delta,
+/// given its present estimate S; reduced where S is so large that the matrix would lose its definiteness.
+/// \param f, slope  viscosity of the plastic stress and its derivative
 template <int Dim>
-double plastic_coefficient(const LawValue& law, const StrainRate<Dim>& s, const StrainRate<Dim>& stress) {
-  const double largest = law.plastic * law.plastic / -law.slope;
+double plastic_coefficient(double f, double slope, const StrainRate<Dim>& s, const StrainRate<Dim>& stress) {
+  if (!(slope < 0) || !(s.scalar > 0)) return 0;
+  const double largest = f * f / -slope;
   const double size = std::sqrt(inner(stress, stress));
   const double reduction = size > largest ? largest / size : 1.0;
-  return reduction * law.slope / (law.plastic * s.scalar);
+  return reduction * slope / (f * s.scalar);
+}
+
+/// Largest plastic stress up to the strain rate s: bounded, but for shear thinning.
+double plastic_bound(const Rheology& m, double s) {
+  const bool thinning = (m.consistency > 0 && m.index < 1) || m.casson_cross > 0;
+  return m.regularised_yield_stress() + (thinning ? evaluate(m, s).plastic * s : 0.0);
+}
+
+/// S <- f (Delta - dDelta) - k S <Delta, dDelta>: the plastic stress f Delta after a change of -dDelta, linearised.
+template <int Dim>
+void advance_stress(StrainRate<Dim>& stress, const StrainRate<Dim>& s, const StrainRate<Dim>& ds, double f,
+                    double slope) {
+  const double turned = -plastic_coefficient(f, slope, s, stress) * inner(s, ds);
+  const auto combine = [&](double old, double strain, double d) { return f * (strain - d) + turned * old; };
+  stress.third = combine(stress.third, s.third, ds.third);
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = 0; j < Dim; ++j) stress.delta[i][j] = combine(stress.delta[i][j], s.delta[i][j], ds.delta[i][j]);
+  }
 }
 
 /// Stiffness of one element, [corner a][corner b][component][component]; filled for a >= b, the rest follows by
@@ -73,13 +95,6 @@ void add_point(const PointShapes<Dim>& shapes, const StrainRate<Dim>& s, const S
       }
     }
   }
-}
-
-/// The elements that have a corner in a box of cells.
-template <int Dim>
-Box<Dim> elements_around(const Grid<Dim>& grid, Box<Dim> cells) {
-  for (int d = 0; d < Dim; ++d) ++cells.hi[d];
-  return intersect(cells, grid.nodes());
 }
 
 /// Number of the lower offset whose cells lie `place` (base 3) apart.
@@ -124,8 +139,8 @@ void scatter(const DualElement<Dim>& e, const ElementMatrix<Dim>& K, const Offse
 }  // namespace
 
 template <int Dim>
-double evaluate_functional(const Domain<Dim>& domain, const CellVectors<Dim>& u_hat, const CellVectors<Dim>& u,
-                           double dt, DiffusionWork<Dim>& work, CellVectors<Dim>& gradient) {
+FunctionalValue evaluate_functional(const Domain<Dim>& domain, const CellVectors<Dim>& u_hat, const CellVectors<Dim>& u,
+                                    double dt, DiffusionWork<Dim>& work, CellVectors<Dim>& gradient) {
   const Layout<Dim>& layout = domain.layout();
   const Box<Dim>& cells = work.matrix.box();
   double inertia = 0;
@@ -136,12 +151,14 @@ double evaluate_functional(const Domain<Dim>& domain, const CellVectors<Dim>& u_
   const Box<Dim> elements = elements_around(domain.grid, cells);
   for_each_coloured<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
     work.potential[n] = 0;
+    work.gap[n] = 0;
     if (!work.elements.active[n]) return;
     const DualElement<Dim> e = work.elements.mesh.element(n, index);
     double corner[corner_count<Dim>][Dim];
     gather(e, u, corner);
     double force[corner_count<Dim>][Dim] = {};
     double potential = 0;
+    double gap = 0;
     for (int q = 0; q < point_count<Dim>; ++q) {
       const double weight = dt * work.elements.share[n] * e.weight(q);
       if (!(weight > 0)) continue;
@@ -152,13 +169,20 @@ double evaluate_functional(const Domain<Dim>& domain, const CellVectors<Dim>& u_
       for (int k = 0; k < corner_count<Dim>; ++k) {
         for (int c = 0; c < Dim; ++c) force[k][c] += weight * law.f * shapes.against(s, k, c);
       }
+      if (!(work.elements.rheology[n].rigid_yield_stress > 0)) continue;
+      const RigidYield<Dim> rigid = work.rigid_yield(n, q, s);
+      potential += weight * rigid.potential;
+      gap += weight * rigid.gap;
+      for (int k = 0; k < corner_count<Dim>; ++k) {
+        for (int c = 0; c < Dim; ++c) force[k][c] += weight * shapes.against(rigid.stress, k, c);
+      }
     }
     work.potential[n] = potential;
-    for (int k = 0; k < corner_count<Dim>; ++k) {
-      for (int c = 0; c < Dim; ++c) gradient[c][e.corner[k]] += e.factor[k][c] * force[k][c];
-    }
+    work.gap[n] = gap;
+    scatter(e, force, gradient);
   });
-  return inertia + sum<Node>(layout, elements, [&](Node n) { return work.potential[n]; });
+  return {.value = inertia + sum<Node>(layout, elements, [&](Node n) { return work.potential[n]; }),
+          .gap = work.multiplier.size() == 0 ? 0.0 : sum<Node>(layout, elements, [&](Node n) { return work.gap[n]; })};
 }
 
 template <int Dim>
@@ -186,13 +210,21 @@ void assemble_matrix(const Domain<Dim>& domain, const CellVectors<Dim>& u, doubl
       if (!(weight > 0)) continue;
       const StrainRate<Dim> s = strain_rate(e, q, corner);
       const LawValue law = evaluate(work.elements.rheology[n], s.scalar);
+      const PointShapes<Dim> shapes(e, q);
+      const bool tangent = linearisation == Linearisation::tangent;
       double k = 0;
       StrainRate<Dim> stress{};
-      if (linearisation == Linearisation::tangent && law.plastic > 0 && s.scalar > 0) {
+      if (tangent && law.plastic > 0) {
         stress = work.stress[n].at[q];
-        k = weight * plastic_coefficient(law, s, stress);
+        k = weight * plastic_coefficient(law.plastic, law.plastic_slope, s, stress);
       }
-      add_point(PointShapes<Dim>(e, q), s, stress, weight * law.f, k, K);
+      add_point(shapes, s, stress, weight * law.f, k, K);
+      const double thickening = law.slope - law.plastic_slope;
+      if (tangent && thickening > 0) add_point(shapes, s, s, 0, weight * thickening / s.scalar, K);
+      if (!(work.elements.rheology[n].rigid_yield_stress > 0)) continue;
+      const RigidYield<Dim> rigid = work.rigid_yield(n, q, s);
+      k = tangent ? weight * plastic_coefficient(rigid.f, rigid.slope, rigid.driver, work.rigid_stress[n].at[q]) : 0.0;
+      add_point(shapes, rigid.driver, work.rigid_stress[n].at[q], weight * rigid.f, k, K);
     }
     scatter(e, K, table, matrix);
   });
@@ -202,55 +234,86 @@ void assemble_matrix(const Domain<Dim>& domain, const CellVectors<Dim>& u, doubl
 template <int Dim>
 void update_plastic_stress(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellVectors<Dim>& update,
                            DiffusionWork<Dim>& work) {
-  if (work.stress.size() == 0) return;
-  const Box<Dim> elements = elements_around(domain.grid, work.matrix.box());
-  for_each_indexed<Node>(domain.layout(), elements, [&](Node n, const Index<Dim>& index) {
-    if (!work.elements.active[n]) return;
-    const DualElement<Dim> e = work.elements.mesh.element(n, index);
+  const bool regularised = work.stress.size() > 0;
+  const bool rigid = work.multiplier.size() > 0;
+  if (!regularised && !rigid) return;
+  for_each_stress_point(domain, u, work, [&](Node n, const DualElement<Dim>& e, int q, const StrainRate<Dim>& s) {
     const Rheology& rheology = work.elements.rheology[n];
-    double corner[corner_count<Dim>][Dim];
     double change[corner_count<Dim>][Dim];
-    gather(e, u, corner);
     gather_change(e, update, change);
-    for (int q = 0; q < point_count<Dim>; ++q) {
+    const StrainRate<Dim> ds = strain_rate(e, q, change);
+    if (regularised) {
       StrainRate<Dim>& stress = work.stress[n].at[q];
-      if (!(e.weight(q) > 0)) continue;
-      const StrainRate<Dim> s = strain_rate(e, q, corner);
-      const StrainRate<Dim> ds = strain_rate(e, q, change);
       const LawValue law = evaluate(rheology, s.scalar);
-      if (!(law.plastic > 0)) {
+      if (law.plastic > 0) {
+        advance_stress(stress, s, ds, law.plastic, law.plastic_slope);
+        limit(stress, plastic_bound(rheology, std::max(s.scalar, add_scaled(s, -1, ds).scalar)));
+      } else {
         stress = {};
-        continue;
       }
-      // S <- f_p (Delta + dDelta) + k S (Delta . dDelta), with dDelta that of -update.
-      const double k = s.scalar > 0 ? plastic_coefficient(law, s, stress) : 0.0;
-      const double turned = -k * inner(s, ds);
-      const auto combine = [&](double old, double strain, double d) {
-        return law.plastic * (strain - d) + turned * old;
-      };
-      stress.third = combine(stress.third, s.third, ds.third);
-      for (int i = 0; i < Dim; ++i) {
-        for (int j = 0; j < Dim; ++j) stress.delta[i][j] = combine(stress.delta[i][j], s.delta[i][j], ds.delta[i][j]);
-      }
-      const double size = std::sqrt(inner(stress, stress));
-      if (size > rheology.yield_stress) {
-        const double scale = rheology.yield_stress / size;
-        stress.third *= scale;
-        for (auto& row : stress.delta) {
-          for (double& t : row) t *= scale;
-        }
-      }
+    }
+    if (rigid && rheology.rigid_yield_stress > 0) {
+      const RigidYield<Dim> point = work.rigid_yield(n, q, s);
+      StrainRate<Dim>& stress = work.rigid_stress[n].at[q];
+      advance_stress(stress, point.driver, ds, point.f, point.slope);
+      limit(stress, rheology.rigid_yield_stress);
     }
   });
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                                  \
-  template double evaluate_functional(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&, double, \
-                                      DiffusionWork<Dim>&, CellVectors<Dim>&);                                      \
-  template void assemble_matrix(const Domain<Dim>&, const CellVectors<Dim>&, double, Linearisation,                 \
-                                DiffusionWork<Dim>&);                                                               \
-  template void update_plastic_stress(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&,         \
-                                      DiffusionWork<Dim>&);
+template <int Dim>
+NodeField dual_steps(const Domain<Dim>& domain, double dt, const DiffusionWork<Dim>& work) {
+  const Layout<Dim>& layout = domain.layout();
+  const Box<Dim> elements = elements_around(domain.grid, work.matrix.box());
+  // A cell shares its mass among the corners that it is.
+  CellField corners(layout);
+  for_each_coloured<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
+    if (!work.elements.active[n]) return;
+    for (const Cell c : work.elements.mesh.element(n, index).corner) corners[c] += 1;
+  });
+  NodeField steps(layout);
+  for_each_indexed<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
+    if (!work.elements.active[n]) return;
+    const DualElement<Dim> e = work.elements.mesh.element(n, index);
+    ElementMatrix<Dim> K = {};
+    for (int q = 0; q < point_count<Dim>; ++q) {
+      const double weight = dt * work.elements.share[n] * e.weight(q);
+      if (weight > 0) add_point<Dim>(PointShapes<Dim>(e, q), {}, {}, weight, 0, K);
+    }
+    // Row sums of the scaled matrix bound its eigenvalues; the lower half of K stands for both.
+    double rows[corner_count<Dim>][Dim] = {};
+    const auto scale = [&](int k, int c) {
+      const Cell cell = e.corner[k];
+      return std::abs(e.factor[k][c]) * std::sqrt(corners[cell] / work.mass[c][cell]);
+    };
+    for (int a = 0; a < corner_count<Dim>; ++a) {
+      for (int b = 0; b <= a; ++b) {
+        for (int i = 0; i < Dim; ++i) {
+          for (int j = 0; j < Dim; ++j) {
+            const double entry = std::abs(K[a][b][i][j]) * scale(a, i) * scale(b, j);
+            rows[a][i] += entry;
+            if (a != b) rows[b][j] += entry;
+          }
+        }
+      }
+    }
+    double largest = 0;
+    for (const auto& row : rows) {
+      for (const double r : row) largest = std::max(largest, r);
+    }
+    steps[n] = (largest > 0 ? 1 / largest : 0.0) + work.elements.rheology[n].viscosity;
+  });
+  return steps;
+}
+
+#define QUICKSAND_INSTANTIATE(Dim)                                                                                   \
+  template FunctionalValue evaluate_functional(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&, \
+                                               double, DiffusionWork<Dim>&, CellVectors<Dim>&);                      \
+  template void assemble_matrix(const Domain<Dim>&, const CellVectors<Dim>&, double, Linearisation,                  \
+                                DiffusionWork<Dim>&);                                                                \
+  template void update_plastic_stress(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&,          \
+                                      DiffusionWork<Dim>&);                                                          \
+  template NodeField dual_steps(const Domain<Dim>&, double, const DiffusionWork<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

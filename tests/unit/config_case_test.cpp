@@ -81,6 +81,16 @@ TEST(ConfigCase, ShownNumbersAreExact) {
   }
 }
 
+TEST(ConfigCase, ConsistencyIsAPressureTimesAPowerOfSeconds) {
+  for (const std::string text : {"1200", "1200 Pa s^n", "1.2 kPa s^n", "12 hPa s^n"}) {
+    const CaseConfig config = parse_case(with("units: none", "units: SI"), "case.yaml",
+                                         {"species.0.rheology={law: herschel_bulkley, consistency: " + text +
+                                          ", index: 0.4, yield_stress: 1, regularization: 1}"});
+    EXPECT_NEAR(std::get<HerschelBulkley>(config.species[0].law).consistency, 1200, 1e-10) << text;
+    EXPECT_EQ(to_yaml(parse_case(to_yaml(config), "shown")), to_yaml(config));
+  }
+}
+
 TEST(ConfigCase, TextKeepsItsCharacters) {
   const std::string title = "a: b # c \"d\" \\ é\tf\ng";
   CaseConfig config = parse_case(valid_case, "case.yaml");

@@ -112,6 +112,68 @@ TEST(Slug, SofterRegularizationCreepsOn) {
   EXPECT_GE(creep('c'), 2 * creep('d'));
 }
 
+/// A case with Bingham's law in place of the regularised one.
+CaseConfig rigid(CaseConfig config) {
+  for (Species& species : config.species) {
+    const auto& law = std::get<Papanastasiou>(species.law);
+    species.law = Bingham{law.viscosity, law.yield_stress};
+  }
+  return config;
+}
+
+TEST(Slug, RigidSandCastleStopsForGood) {
+  const Slug e = collapse<2>(rigid(fast('e')), {3, 3.5});
+  expect_within(e.shape[1].height, stopped_e.height, 0.04);
+  expect_within(e.shape[1].radius, stopped_e.radius, 0.08);
+  EXPECT_NEAR(e.shape[1].height, e.shape[0].height, 1e-8);
+  EXPECT_LE(e.last_speed, 1e-8);
+}
+
+TEST(Slug, RigidSlugStandsWithoutMotion) {
+  const Slug f = collapse<2>(rigid(fast('f')), {1, 1.2});
+  EXPECT_GE(f.shape[0].height, 0.999);
+  EXPECT_NEAR(f.shape[1].height, f.shape[0].height, 1e-9);
+  EXPECT_LE(f.last_speed, 1e-8);
+}
+
+TEST(Slug, RegularizedSlugCreepsAtASpeedLikeOneOverAlpha) {
+  const auto creep = [](const char* alpha) {
+    return collapse<2>(fast('f', 1, {std::string("species.0.rheology.regularization=") + alpha}), {1.5}).last_speed;
+  };
+  const double soft = creep("100");
+  const double medium = creep("200");
+  const double stiff = creep("400");
+  expect_within(soft / medium, 2, 0.15);
+  expect_within(medium / stiff, 2, 0.15);
+}
+
+TEST(Slug, RigidSlurriesStopForGoodSlow) {
+  const Slug d = collapse<2>(rigid(fast('d')), {3.5, 4});
+  expect_within(d.shape[1].height, stopped_d.height, 0.04);
+  expect_within(d.shape[1].radius, stopped_d.radius, 0.08);
+  EXPECT_NEAR(d.shape[1].height, d.shape[0].height, 1e-8);
+  EXPECT_LE(d.last_speed, 1e-8);
+  EXPECT_LE(collapse<2>(rigid(as_shipped('f')), {1.2}).last_speed, 1e-8);
+}
+
+TEST(Slug, NewtonsMethodConvergesInEveryStep) {
+  for (const char letter : {'d', 'e'}) {
+    const CaseConfig config = fast(letter);
+    Flow<2> flow = build_flow<2>(config);
+    int steps = 0;
+    int iterations = 0;
+    testing::run(config, flow, [&](const StepReport& report) {
+      EXPECT_TRUE(report.diffusion.converged);
+      EXPECT_FALSE(report.diffusion.fell_back);
+      EXPECT_FALSE(report.diffusion.stagnated);
+      ++steps;
+      iterations += report.diffusion.iterations;
+      return flow.state().time < 1.5;
+    });
+    EXPECT_LE(iterations, 4 * steps);
+  }
+}
+
 TEST(Slug, SlugsStopAsInTheReferenceWithTheStepsOfTheTableSlow) {
   const Slug d = collapse<2>(as_shipped('d'), {4});
   expect_within(d.shape[0].height, stopped_d.height, 0.02);
