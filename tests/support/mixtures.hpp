@@ -33,6 +33,7 @@ struct Mixture {
     sum_fractions(domain.grid, phi, total);
     mix_density(domain.grid, species, phi, rho);
     mark_liquid(domain.grid, total, 0.5, liquid);
+    interfaces = Interfaces<Dim>(domain.layout(), species.size());  // tests add species
     reconstruct_interfaces(domain.grid, phi, interfaces);
     mark_bearing_cells(domain.grid, total, elements.bears);
     find_pressure_elements(domain, species, total, interfaces, elements);
