@@ -90,6 +90,8 @@ const ShippedCase cases[] = {
     {"sloshing/two_layer", 1, 12.8},
     {"slabs/colliding", 1, 1},
     {"slope/mud", 5, 120},
+    {"channel/couette", 1, 10},
+    {"cavity/cavity", 5e-4, 3e-3},
     {"bubbles/free_disc", 1, 12},
     {"bubbles/free_ball", 0.5, 4.7},
 };

@@ -38,9 +38,9 @@ Vortex find_vortex(const Flow<2>& flow) {
   return vortex;
 }
 
-Flow<2> cavity(double bingham_number, int n) {
+Flow<2> cavity(const Law& law, int n) {
   CaseConfig config = testing::shipped_case("cavity/cavity");
-  std::get<Papanastasiou>(config.species.front().law).yield_stress = bingham_number;
+  config.species.front().law = law;
   config.grid.x.front().cells = config.grid.z.front().cells = n;
   return testing::steady_flow<2>(config);
 }
@@ -51,13 +51,35 @@ void expect_vortex(const Flow<2>& flow, double height, double stream, double hei
   EXPECT_NEAR(vortex.flow, stream, stream_error * stream);
 }
 
-TEST(Cavity, NewtonianVortexOnACoarseGrid) { expect_vortex(cavity(0, 32), 0.7650, 0.1001, 0.005, 0.015); }
+TEST(Cavity, NewtonianVortexOnACoarseGrid) { expect_vortex(cavity(Newtonian{1}, 32), 0.7650, 0.1001, 0.005, 0.015); }
 
 TEST(Cavity, SlowVorticesOfYieldStressLiquids) {
-  expect_vortex(cavity(0, 64), 0.7650, 0.1001, 0.002, 0.005);
-  expect_vortex(cavity(1, 64), 0.7956, 0.0868, 0.005, 0.015);
-  expect_vortex(cavity(2, 64), 0.8155, 0.0781, 0.005, 0.015);
-  expect_vortex(cavity(5, 64), 0.8478, 0.0634, 0.005, 0.015);
+  expect_vortex(cavity(Newtonian{1}, 64), 0.7650, 0.1001, 0.002, 0.005);
+  const double values[][3] = {{1, 0.7956, 0.0868}, {2, 0.8155, 0.0781}, {5, 0.8478, 0.0634}};
+  for (const auto& [bingham_number, height, stream] : values) {
+    SCOPED_TRACE(bingham_number);
+    expect_vortex(cavity(Papanastasiou{1, bingham_number, 1000}, 64), height, stream, 0.005, 0.015);
+  }
+}
+
+TEST(Cavity, SlowRigidZonesOfBinghamsLaw) {
+  // Unyielded on x = 0.5 at Bn = 5: 0 to 0.188 and 0.648 to 0.766.
+  const Flow<2> flow = cavity(Bingham{1, 5}, 64);
+  expect_vortex(flow, 0.8478, 0.0634, 0.005, 0.015);
+  const Grid<2>& grid = flow.domain().grid;
+  const CellField unyielded = evaluate_stress(flow).unyielded;
+  std::vector<double> ends{0};
+  bool rigid = true;
+  for (int j = 0; j < 64; ++j) {
+    const bool now = unyielded[grid.cell({32, j})] > 0.5;
+    if (now != rigid) ends.push_back(grid.face_position(1, j));
+    rigid = now;
+  }
+  ASSERT_EQ(ends.size(), 4u);
+  constexpr double two_cells = 2.0 / 64;
+  EXPECT_NEAR(ends[1], 0.188, two_cells);
+  EXPECT_NEAR(ends[2], 0.648, two_cells);
+  EXPECT_NEAR(ends[3], 0.766, two_cells);
 }
 
 }  // namespace

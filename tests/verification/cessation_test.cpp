@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "physics/diffusion.hpp"
 #include "support/mixtures.hpp"
+#include "support/viscometric.hpp"
 
 namespace quicksand {
 namespace {
@@ -56,6 +58,27 @@ double stopping_time(double bingham_number, int cells, double dt) {
 TEST(Cessation, ChannelFlowStopsInFiniteTime) {
   EXPECT_NEAR(stopping_time(1, 40, 1e-3), 0.454, 0.01 * 0.454);
   EXPECT_NEAR(stopping_time(2, 40, 1e-3), 0.290, 0.01 * 0.290);
+}
+
+TEST(Cessation, WholeFlowStopsAndStaysAtRest) {
+  for (const auto& [bingham_number, stops] : {std::pair{1.0, 0.454}, std::pair{2.0, 0.290}}) {
+    CaseConfig config = testing::shipped_case("channel/couette");
+    config.grid.x.front().cells = 2;
+    config.grid.z = {{-1, 1, 64, Stretch::uniform}};
+    config.initial.front().shape = LayerShape{-1, 1};
+    config.boundaries.z_max->velocity = {};
+    config.species.front().law = Bingham{1, bingham_number};
+    config.gravity = {{pressure_gradient(bingham_number), 0, 0}};
+    const Flow<2> driven = testing::steady_flow<2>(config);
+    config.gravity = {};
+    Flow<2> flow = build_flow<2>(config);
+    flow.state().u = driven.state().u;
+    flow.initialize();
+    while (diagnose(flow).max_speed > 1e-6 && flow.state().time < 1) flow.advance(1e-3);
+    EXPECT_NEAR(flow.state().time, stops, 0.03 * stops) << bingham_number;
+    for (int k = 0; k < 3; ++k) flow.advance(1e-3);
+    EXPECT_LE(diagnose(flow).max_speed, 1e-9) << bingham_number;
+  }
 }
 
 }  // namespace

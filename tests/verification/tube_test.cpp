@@ -1,7 +1,9 @@
 // Steady flow through a circular tube, report (37)-(41), Fig. 2-4 and Table 1: R = 4, (P_L - P_0) / (2 L) = 1.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "support/grids.hpp"
 #include "support/viscometric.hpp"
@@ -14,10 +16,11 @@ using testing::StressLaw;
 constexpr double radius = 4;
 constexpr double yield_radius = 2;
 
-/// The shipped case with n cells across the radius.
-Flow<2> tube(const std::string& name, int n) {
+/// The shipped case with n cells across the radius, and another law where one is given.
+Flow<2> tube(const std::string& name, int n, const std::optional<Law>& law = {}) {
   CaseConfig config = testing::shipped_case("tube/" + name);
   config.grid.x.front().cells = n;
+  if (law) config.species.front().law = *law;
   return testing::steady_flow<2>(config);
 }
 
@@ -67,6 +70,60 @@ TEST(Tube, YieldStressFlowConverges) {
     }
     coarser = error;
   }
+}
+
+TEST(Tube, RigidCoreMovesAsAPlug) {
+  // Bingham's law itself (41): v = 2 within r = 2, and Buckingham and Reiner's flow rate.
+  const auto exact = [](double r) {
+    return r <= yield_radius ? 2.0
+                             : 0.5 * radius * radius * (1 - r / radius) * (1 + r / radius - 2 * yield_radius / radius);
+  };
+  constexpr double exact_rate = 71.20943348;
+  double coarser = 0;
+  for (const int n : {8, 16, 32}) {
+    const Flow<2> flow = tube("tube_bingham", n, Bingham{1, 2});
+    const Grid<2>& grid = flow.domain().grid;
+    double error = 0;
+    double rate = 0;
+    double spread = 0;
+    const double plug = flow.state().u[1][grid.cell({0, 1})];
+    for (int i = 0; i < n; ++i) {
+      const double r = grid.centre_position(0, i);
+      const double v = flow.state().u[1][grid.cell({i, 1})];
+      rate += 2 * std::numbers::pi * r * grid.width_1d(0, i) * v;
+      if (r < yield_radius) spread = std::max(spread, std::abs(v - plug));
+      if (std::abs(r - yield_radius) > radius / 8) error = std::max(error, std::abs(v - exact(r)));
+    }
+    EXPECT_LE(spread, 1e-8) << n;
+    if (coarser > 0) {
+      EXPECT_GE(std::log2(coarser / error), 1.9) << n;
+    }
+    coarser = error;
+    if (n < 32) continue;
+    EXPECT_NEAR(plug, 2, 0.002 * 2);
+    EXPECT_NEAR(rate, exact_rate, 0.003 * exact_rate);
+  }
+}
+
+/// Expects errors that fall to second order from 8 to 32 cells and end below `bound` per cent.
+void expect_second_order(const std::string& name, const StressLaw& law, double bound) {
+  const double coarse = largest_error(tube(name, 8), law);
+  const double fine = largest_error(tube(name, 32), law);
+  EXPECT_LE(fine, bound);
+  EXPECT_GE(std::log2(coarse / fine) / 2, 1.9) << coarse << " " << fine;
+}
+
+TEST(Tube, HerschelBulkleyFlowConverges) {
+  expect_second_order(
+      "tube_herschel_bulkley", [](double s) { return std::pow(s, 0.6) - 2 * std::expm1(-100 * s); }, 0.2);
+}
+
+TEST(Tube, CassonFlowConverges) {
+  const auto law = [](double s) {
+    const double root = std::sqrt(s) - std::sqrt(2.0) * std::expm1(-std::sqrt(100 * s));
+    return root * root;
+  };
+  expect_second_order("tube_casson", law, 0.2);
 }
 
 TEST(Tube, FlowIsTheSameAllAlong) {
