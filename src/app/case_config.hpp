@@ -47,10 +47,10 @@ struct Inflow {
 /// A side of the domain; members that its kind does not have stay as they are.
 struct SideConfig {
   SideKind kind = SideKind::free_slip;
-  double pressure = 0;                 ///< outside an open side
-  std::optional<std::string> outside;  ///< species outside an open side, gas where absent
-  Vec<3> velocity;                     ///< of a no-slip wall
-  Inflow inflow;
+  double pressure = 0;                   ///< outside an open side
+  std::optional<std::string> outside{};  ///< species outside an open side, gas where absent
+  Vec<3> velocity{};                     ///< of a no-slip wall
+  Inflow inflow{};
 };
 
 /// The sides of the domain; those of y only in 3-D.

@@ -140,7 +140,7 @@ CaseConfig octant(int cells_per_radius, double b) {
   config.grid.geometry = Geometry::planar;
   const AxisSegment axis{0.0, 1.25 * b, 5 * cells_per_radius / 4, Stretch::uniform};
   config.grid.x = config.grid.y = config.grid.z = {axis};
-  const Side symmetry{SideKind::symmetry, 0};
+  const SideConfig symmetry{SideKind::symmetry, 0};
   config.boundaries.x_min = config.boundaries.y_min = symmetry;
   config.boundaries.y_max = config.boundaries.x_max;
   std::get<SphereShape>(config.initial.front().shape).radius = b;
