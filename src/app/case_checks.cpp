@@ -96,8 +96,11 @@ void check_side(const CaseConfig& config, const SideConfig& side, const std::str
     const double inwards = (path.ends_with("_min") ? 1 : -1) * side.inflow.velocity[across];
     if (reading.clean(path) && !(inwards > 0)) reading.problem(path + ".inflow.velocity", "must point into the grid");
   }
-  const bool radial = side.kind == SideKind::no_slip && side.velocity[0] != 0 && across != 0;
-  if (axisymmetric && radial) reading.problem(path + ".no_slip", "must point along z in axisymmetric cases");
+  const bool inflow = side.kind == SideKind::inflow;
+  const bool radial = across != 0 && (inflow ? side.inflow.velocity : side.velocity)[0] != 0;
+  if (axisymmetric && radial) {
+    reading.problem(path + (inflow ? ".inflow.velocity" : ".no_slip"), "must point along z in axisymmetric cases");
+  }
 }
 
 void check_boundaries(const CaseConfig& config, Reading& reading) {

@@ -1,5 +1,7 @@
 #include "core/domain.hpp"
 
+#include <algorithm>
+
 namespace quicksand {
 
 namespace {
@@ -57,7 +59,7 @@ Vec<Dim> SideVelocities<Dim>::at(int d, int s, const Vec<Dim>& x) const {
   double factor = 1;
   for (int e = 0; e < Dim && side.profile == Profile::parabolic; ++e) {
     if (e == d) continue;
-    const double t = (x[e] - low_[e]) / (high_[e] - low_[e]);
+    const double t = std::clamp((x[e] - low_[e]) / (high_[e] - low_[e]), 0.0, 1.0);
     factor *= parabola(t, sides_.at(e, 0).kind == SideKind::no_slip, sides_.at(e, 1).kind == SideKind::no_slip);
   }
   Vec<Dim> u;

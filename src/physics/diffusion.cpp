@@ -46,12 +46,20 @@ void mark_participants(const Domain<Dim>& domain, const CellField& rho, Diffusio
       work.mass[e][c] = touching(work.elements.active, domain.layout(), c) > 0 ? rho[c] * grid.volume(c) : 0.0;
     });
     for (int d = 0; d < Dim; ++d) {
-      for (int s = 0; s < 2; ++s) {
-        if (d == e || domain.sides.at(d, s).kind != SideKind::no_slip || !grid.at_boundary(d, s)) continue;
+      if (d == e) continue;
+      const auto held = [&](int s) {
+        return domain.sides.at(d, s).kind == SideKind::no_slip && grid.at_boundary(d, s);
+      };
+      const int last = grid.owned_cells()[d] - 1;
+      for (int i = 0; i <= last; i += std::max(last, 1)) {
+        double part = 1;
+        for (int s = 0; s < 2; ++s) {
+          if (held(s) && i == (s == 0 ? 0 : last)) part -= 1 - part_off_wall(grid, d, s, i);
+        }
         Box<Dim> layer = grid.cells();
-        (s == 0 ? layer.hi[d] : layer.lo[d]) = s == 0 ? 1 : grid.owned_cells()[d] - 1;
-        const double part = part_off_wall(grid, d, s, layer.lo[d]);
-        for_each<Cell>(domain.layout(), layer, [&](Cell c) { work.mass[e][c] *= part; });
+        layer.lo[d] = i;
+        layer.hi[d] = i + 1;
+        if (part < 1) for_each<Cell>(domain.layout(), layer, [&](Cell c) { work.mass[e][c] *= part; });
       }
     }
   }

@@ -6,6 +6,7 @@
 #include "core/errors.hpp"
 #include "core/vector_fields.hpp"
 #include "physics/energy.hpp"
+#include "physics/rigid_iteration.hpp"
 
 namespace quicksand {
 
@@ -77,6 +78,7 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       gas_pressure_(domain_.layout()),
       outer_pressure_(domain_.layout(), parameters_.ambient_pressure) {
   state_.pressure.fill(parameters_.ambient_pressure);
+  if (diffusion_.multiplier.size() > 0) rigid_ = CellField(domain_.layout());
 }
 
 template <int Dim>
@@ -86,7 +88,7 @@ void Flow<Dim>::refresh() {
   sum_fractions(grid, state_.phi, total_);
   mix_density(grid, parameters_.species, state_.phi, rho_);
   mark_liquid(grid, total_, parameters_.liquid_threshold, liquid_);
-  hold_open(state_.gas, liquid_);
+  hold_open(grid, state_.gas, liquid_);
   clear_without_mass(grid, rho_, state_.u);
   fill_velocity_ghosts(domain_, state_.u);
   fill_acceleration_ghosts(grid, domain_.sides, state_.acceleration);
@@ -97,7 +99,7 @@ void Flow<Dim>::find_elements(const State<Dim>& state, const CellField& total, I
                               PressureElements<Dim>& elements) {
   reconstruct_interfaces(domain_.grid, state.phi, interfaces);
   mark_bearing_cells(domain_.grid, total, elements.bears);
-  hold_open(state.gas, elements.bears);
+  hold_open(domain_.grid, state.gas, elements.bears);
   find_pressure_elements(domain_, parameters_.species, total, interfaces, elements);
 }
 
@@ -106,7 +108,7 @@ void Flow<Dim>::initialize() {
   refresh();
   if (has_bubbles(gas_parameters(), state_.gas)) {
     start_gas(domain_, gas_parameters(), total_, gas_labels_, state_.gas);
-    hold_open(state_.gas, liquid_);
+    hold_open(domain_.grid, state_.gas, liquid_);
   }
   gas_pressure_on_nodes(domain_, gas_parameters(), state_.gas, liquid_, false, gas_pressure_, outer_pressure_);
   set_open_pressures(domain_, outer_pressure_);
@@ -117,8 +119,8 @@ void Flow<Dim>::initialize() {
   const CellVectors<Dim> none(domain_.layout());
   const double dt = 1;
   add_uniform(grid.layout(), grid.cells(), none, dt, parameters_.gravity, u_hat_);
-  require_converged(solve_pressure(domain_, Projected::acceleration, 0.0, u_hat_, rho_, elements_, outer_pressure_, dt,
-                                   parameters_.linear, projection_, state_.pressure),
+  require_converged(solve_pressure(domain_, Projected::acceleration, CellField(), u_hat_, rho_, elements_,
+                                   outer_pressure_, dt, parameters_.linear, projection_, state_.pressure),
                     "initial pressure");
   add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -dt, u_hat_);
   state_.acceleration = u_hat_;
@@ -150,17 +152,23 @@ void Flow<Dim>::project(double dt, StepReport& report) {
   CellVectors<Dim>& u_bar_star = u_hat_;
   u_bar_star = next_.u;
   const double before = kinetic_energy(grid, next_rho_, u_bar_star);
-  // With the last pressure remembered what is at rest stays so; in the rare step where that costs energy it is not.
-  for (const double memory : {1.0, 0.0}) {
+  const auto solve = [&](const CellField& rigid) {
     next_.pressure = state_.pressure;
-    report.projection = solve_pressure(domain_, Projected::velocity, memory, u_bar_star, next_rho_, next_elements_,
-                                       outer_pressure_, dt, parameters_.linear, projection_, next_.pressure);
+    const SolveReport solved =
+        solve_pressure(domain_, Projected::velocity, rigid, u_bar_star, next_rho_, next_elements_, outer_pressure_, dt,
+                       parameters_.linear, projection_, next_.pressure);
+    report.projection.iterations += solved.iterations;
     report.gas_work = gas_work(domain_, u_bar_star, next_rho_, next_elements_, dt, projection_);
     next_.u = u_bar_star;
     add_pressure_gradient(domain_, next_.pressure, next_rho_, next_elements_, -dt, next_.u);
     report.projection_energy_change = kinetic_energy(grid, next_rho_, next_.u) - before;
+  };
+  if (rigid_.size() > 0 && report.diffusion.multiplier_updates > 0) {
+    mark_rigid_cells(domain_, diffusion_, rigid_);
+    solve(rigid_);
     if (report.projection_energy_change <= report.gas_work) return;
   }
+  solve(CellField());
 }
 
 /// One step of the report's algorithm:
@@ -203,9 +211,10 @@ StepReport Flow<Dim>::step(double dt) {
   mix_density(grid, par.species, next_.phi, next_rho_);
   mark_liquid(grid, next_total_, par.liquid_threshold, next_liquid_);
   next_.gas.bubbles.clear();
+  next_.gas.held_open.clear();
   if (has_bubbles(gas_parameters(), state_.gas)) {
     report.gas = advance_gas(domain_, gas_parameters(), state_.gas, total_, next_total_, dt, gas_labels_, next_.gas);
-    hold_open(next_.gas, next_liquid_);
+    hold_open(grid, next_.gas, next_liquid_);
   }
   gas_pressure_on_nodes(domain_, gas_parameters(), next_.gas, next_liquid_, true, gas_pressure_, outer_pressure_);
   set_open_pressures(domain_, outer_pressure_);

@@ -34,12 +34,13 @@ void for_neighbours(const Domain<Dim>& domain, Cell c, Body&& body) {
   }
 }
 
-/// Whether a cell has a face on an open side with gas beyond it.
+/// Whether a cell has a face on an open side, or on an inflow side that gas comes in through.
 template <int Dim>
 bool at_open_side(const Domain<Dim>& domain, Cell c) {
   const Index<Dim> index = domain.layout().multi(c.n);
   const auto opens = [&](int d, int s) {
-    return domain.grid.at_boundary(d, s) && is_open(domain.sides.at(d, s)) && !domain.sides.at(d, s).outside;
+    const Side& side = domain.sides.at(d, s);
+    return domain.grid.at_boundary(d, s) && (is_open(side) || (is_passable(side) && !side.outside));
   };
   for (int d = 0; d < Dim; ++d) {
     if (index[d] == 0 && opens(d, 0)) return true;

@@ -81,7 +81,7 @@ Overlap find_overlap(const Grid<Dim>& grid, const GasState& before, const CellFi
 struct Assembly {
   std::vector<int> whole;       ///< per component: the component whose region it is part of
   std::vector<double> volume;   ///< per component: of the region, if it is the whole
-  std::vector<Cell> held_open;  ///< where a region has no cell outside D
+  std::vector<Cell> held_open;  ///< the emptiest cell of every bubble
 };
 
 /// Part-filled cells apart from the rest of their region stay with it; the largest stand for it if there is no rest.
@@ -108,9 +108,7 @@ Assembly assemble(const GasLabels& labels, Overlap& overlap) {
   assembly.volume.assign(at(n), 0.0);
   for (int k = 0; k < n; ++k) assembly.volume[at(assembly.whole[at(k)])] += labels.components[at(k)].volume;
   for (const auto& [region, k] : main) {
-    if (region != open_air && labels.components[at(k)].outside == 0) {
-      assembly.held_open.push_back(labels.components[at(k)].emptiest);
-    }
+    if (region != open_air) assembly.held_open.push_back(labels.components[at(k)].emptiest);
   }
   return assembly;
 }
@@ -267,7 +265,12 @@ void start_gas(const Domain<Dim>& domain, const GasParameters& parameters, const
     for (const auto& [key, part] : overlap.now) {
       if (key.first != b.id) continue;
       volume += part;
-      ids[at(key.second)] = b.id;
+      int& id = ids[at(key.second)];
+      if (id != open_air) {
+        throw InputError("bubbles " + std::to_string(id) + " and " + std::to_string(b.id) +
+                         " are one on this grid: the liquid between them is thinner than a cell");
+      }
+      id = b.id;
       if (labels.components[at(key.second)].open) {
         throw InputError("bubble " + std::to_string(b.id) + " is not enclosed by liquid");
       }
@@ -342,8 +345,10 @@ std::vector<GasEvent> advance_gas(const Domain<Dim>& domain, const GasParameters
   return events;
 }
 
-void hold_open(const GasState& gas, CellMask& liquid) {
+template <int Dim>
+void hold_open(const Grid<Dim>& grid, const GasState& gas, CellMask& liquid) {
   for (const Cell c : gas.held_open) liquid[c] = 0;
+  if (!gas.held_open.empty()) wrap(grid.layout(), grid.cells(), liquid, ghosts);
 }
 
 template <int Dim>
@@ -379,6 +384,7 @@ void gas_pressure_on_nodes(const Domain<Dim>& domain, const GasParameters& param
   template void start_gas(const Domain<Dim>&, const GasParameters&, const CellField&, GasLabels&, GasState&);     \
   template std::vector<GasEvent> advance_gas(const Domain<Dim>&, const GasParameters&, const GasState&,           \
                                              const CellField&, const CellField&, double, GasLabels&, GasState&);  \
+  template void hold_open(const Grid<Dim>&, const GasState&, CellMask&);                                          \
   template void gas_pressure_on_nodes(const Domain<Dim>&, const GasParameters&, const GasState&, const CellMask&, \
                                       bool, CellField&, NodeField&);
 QUICKSAND_INSTANTIATE(2)

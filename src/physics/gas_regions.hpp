@@ -22,7 +22,7 @@ struct TrappedGas {
 
 struct GasParameters {
   double ambient_pressure = 0;
-  double liquid_threshold = 0.95;  ///< eps of D
+  double liquid_threshold = 0.5;  ///< eps of D
   TrappedGas trapped;
 };
 
@@ -42,7 +42,7 @@ struct Bubble {
 struct GasState {
   CellLabels region;            ///< id of the region of each gas cell, 0 in liquid; see label_gas()
   std::vector<Bubble> bubbles;  ///< by increasing id
-  std::vector<Cell> held_open;  ///< the last cells of bubbles that have none outside D left: they count as outside D
+  std::vector<Cell> held_open;  ///< the emptiest cell of every bubble: it counts as empty, however full it is
   int last_id = open_air;
 
   GasState() = default;
@@ -97,9 +97,9 @@ void start_gas(const Domain<Dim>& domain, const GasParameters& parameters, const
 /// pressure, and what was in it is lost. Ambient gas that is enclosed keeps the ambient pressure, or becomes a bubble
 /// if so chosen; where it meets a bubble it joins it with its own volume at the ambient pressure.
 ///
-/// A bubble all of whose cells are part-filled lives on: the emptiest of them counts as outside D (`held_open`), so
-/// that its pressure acts on the liquid. Part-filled cells apart from the rest of their region stay with it. When every
-/// cell of a bubble is more than half full it ends: its gas goes to the region that the rest of its volume counts for.
+/// A bubble all of whose cells are part-filled lives on: the emptiest of them counts as empty (`held_open`), so that
+/// its pressure acts on the liquid. Part-filled cells apart from the rest of their region stay with it. When every cell
+/// of a bubble is more than half full it ends: its gas goes to the region that the rest of its volume counts for.
 /// \param before, total_before  gas and sum phi before the step
 /// \param total                 sum phi after it
 /// \param after                 result
@@ -109,8 +109,9 @@ std::vector<GasEvent> advance_gas(const Domain<Dim>& domain, const GasParameters
                                   const CellField& total_before, const CellField& total, double dt, GasLabels& labels,
                                   GasState& after);
 
-/// Takes the cells that bubbles hold open out of D.
-void hold_open(const GasState& gas, CellMask& liquid);
+/// Takes the cells that bubbles hold open out of D, or out of the cells that bear pressure.
+template <int Dim>
+void hold_open(const Grid<Dim>& grid, const GasState& gas, CellMask& liquid);
 
 /// Pressure of the gas around each node: the mean over the cells outside D that touch it, so of two regions' where it
 /// touches both; the ambient pressure inside D. \param mean  whether of the last step's change of volume (for the

@@ -34,7 +34,7 @@ Interval filled_part(const Surface<Dim>& surface, Cell c, int k, int d) {
 }
 
 /// Adds what a cell holds on its edge along d that begins at corner k. The moment of the part up to t is
-/// integral of w s, where w is the axis' normalised weight: w_0 + (2 - 2 w_0) s, and w_0 = 1 but for the radius.
+/// integral of W, the integral from 0 of the axis' normalised weight w_0 + (2 - 2 w_0) s; w_0 = 1 but for the radius.
 template <int Dim>
 void add_edge(const Interfaces<Dim>& interfaces, const std::vector<Species>& species, double w_0, Cell c, int k, int d,
               EdgeMass& edge) {

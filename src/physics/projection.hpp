@@ -37,23 +37,24 @@ enum class Projected { velocity, acceleration };
 
 /// Solves dt div(1/rho grad P) = div u-bar* in D (51), with P = outer_pressure on nodes that are not free.
 ///
-/// Deviates from the report: the matrix K holds more than the divergence of the elements' mean gradients, and the
-/// surplus acts on P - memory P^{n-1/2} rather than on P. With memory = 1 a pressure that balances all other forces is
-/// found again, so that what is at rest stays at rest; with memory = 0 kinetic energy can't rise by more than
-/// gas_work(), with 1 it may by as much as the surplus of P^{n-1/2}.
-/// \param u_bar_star      (52), owned cells
-/// \param outer_pressure  pressure of the gas around each node, and of open sides on their nodes
-/// \param pressure        the last step's pressure on entry (first guess), P^{n+1/2} on return; outer_pressure on nodes
+/// Deviates from the report: the matrix K holds more than the divergence of the elements' mean gradients. In cells that
+/// do not give way the surplus acts on P - P^{n-1/2} in place of P, so that a pressure that balances all other forces
+/// is found again, and what is at rest stays so. Kinetic energy may then rise by more than gas_work(), by as much as
+/// the surplus of P^{n-1/2}; without rigid cells it can't, but for what an inflow brings. \param rigid           part
+/// of each cell that does not give way; without size: none does \param u_bar_star      (52), owned cells \param
+/// outer_pressure  pressure of the gas around each node, and of open sides on their nodes \param pressure        the
+/// last step's pressure on entry (first guess), P^{n+1/2} on return; outer_pressure on nodes
 ///                        that are not free
 /// \throws NumericalError when the solve does not converge
 template <int Dim>
-SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, double memory, const CellVectors<Dim>& u_bar_star,
-                           const CellField& rho, const PressureElements<Dim>& elements, const NodeField& outer_pressure,
-                           double dt, const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure);
+SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const CellField& rigid,
+                           const CellVectors<Dim>& u_bar_star, const CellField& rho,
+                           const PressureElements<Dim>& elements, const NodeField& outer_pressure, double dt,
+                           const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure);
 
 /// Work that the gas does on the liquid in the projection just solved: minus dt times the sum over the given nodes of
-/// their pressure times the volume that leaves D there, r = sum V u-bar* . grad N - dt K P. Kinetic energy grows by at
-/// most that much. \param work  as solve_pressure() left it
+/// their pressure times the volume that leaves D there, r = sum V u-bar* . grad N - dt K P. \param work  as
+/// solve_pressure() left it
 template <int Dim>
 double gas_work(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, const CellField& rho,
                 const PressureElements<Dim>& elements, double dt, ProjectionWork<Dim>& work);

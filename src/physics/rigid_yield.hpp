@@ -38,6 +38,12 @@ void limit(StrainRate<Dim>& stress, double largest) {
   }
 }
 
+/// Whether a stress is below the yield stress by more than round-off.
+template <int Dim>
+bool is_rigid(const StrainRate<Dim>& stress, double yield_stress) {
+  return std::sqrt(inner(stress, stress)) < (1 - 1e-9) * yield_stress;
+}
+
 /// The penalised yield stress at one strain rate.
 template <int Dim>
 struct RigidYield {

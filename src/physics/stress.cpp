@@ -9,8 +9,6 @@ namespace {
 
 /// A regularised law reaches the yield stress nowhere; within a per cent of it the material counts as yielded.
 constexpr double yielding_share = 0.99;
-/// The dual stress of a point that yields under Bingham's law is the yield stress up to round-off.
-constexpr double rigid_share = 1 - 1e-9;
 
 }  // namespace
 
@@ -37,7 +35,7 @@ StressFields evaluate_stress(const Flow<Dim>& flow) {
         const double size = std::sqrt(inner(rigid, rigid));
         magnitude = add_scaled(rigid, f, s).scalar;
         f += std::min(size / std::max(s.scalar, 1e-300), flow.rigid_viscosity());
-        unyielded = size < rigid_share * rheology.rigid_yield_stress;
+        unyielded = is_rigid(rigid, rheology.rigid_yield_stress);
       }
       for (int k = 0; k < corner_count<Dim>; ++k) {
         const double share = e.weight(q) * mid_edge_shapes<Dim>.value[q][k];

@@ -29,13 +29,28 @@ double bubble_rate(const Flow<Dim>& flow, double cfl) {
   return rate;
 }
 
+/// 1 / dt for which what comes in through inflow sides moves cfl cell widths.
+template <int Dim>
+double inflow_rate(const Domain<Dim>& domain, double cfl) {
+  double rate = 0;
+  for (int d = 0; d < Dim; ++d) {
+    for (int s = 0; s < 2; ++s) {
+      const Side& side = domain.sides.at(d, s);
+      if (side.kind != SideKind::inflow) continue;
+      const double width = domain.grid.width_1d(d, s == 0 ? 0 : domain.grid.owned_cells()[d] - 1);
+      rate = std::max(rate, std::abs(side.velocity[d]) / (cfl * width));
+    }
+  }
+  return rate;
+}
+
 }  // namespace
 
 template <int Dim>
 double stable_step(const Flow<Dim>& flow, double cfl) {
   const Grid<Dim>& grid = flow.domain().grid;
   const State<Dim>& state = flow.state();
-  double rate = bubble_rate(flow, cfl);  // largest 1 / dt
+  double rate = std::max(bubble_rate(flow, cfl), inflow_rate(flow.domain(), cfl));  // largest 1 / dt
   for (int d = 0; d < Dim; ++d) {
     const double g = std::abs(flow.parameters().gravity[d]);
     rate = std::max(rate, maximum<Cell>(grid.layout(), grid.cells(), 0.0, [&](Cell c) {

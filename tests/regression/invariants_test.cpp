@@ -1,4 +1,5 @@
-// What must hold in every step of every shipped case: volumes, room in cells, energy of redistribution and projection.
+// What must hold in every step of every shipped case that no pressure drives: volumes, room in cells, energy of
+// redistribution and projection.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,7 +57,7 @@ void expect_invariants(CaseConfig config, double end) {
 
 class Invariants : public ::testing::TestWithParam<ShippedCase> {
  protected:
-  /// \param settled  whether slugs take steps by CFL number, to get far in little time
+  /// \param by_cfl  whether slugs take steps by CFL number, to get far in little time
   static void expect(double end, bool by_cfl) {
     const std::string name = GetParam().name;
     CaseConfig config = testing::shipped_case(name);
