@@ -71,6 +71,8 @@ struct DiffusionWork {
 
   DiffusionWork(const Domain<Dim>& domain, const std::vector<Species>& species);
 
+  /// Whether some species has a yield stress, rigid or regularised.
+  bool has_yield_stress() const { return stress.size() > 0 || multiplier.size() > 0; }
   /// The rigid yield stress at point q of element n for the strain rate s.
   RigidYield<Dim> rigid_yield(Node n, int q, const StrainRate<Dim>& s) const {
     return {multiplier[n].at[q], elements.rheology[n].rigid_yield_stress, penalty, s};

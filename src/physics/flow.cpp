@@ -6,7 +6,6 @@
 #include "core/errors.hpp"
 #include "core/vector_fields.hpp"
 #include "physics/energy.hpp"
-#include "physics/rigid_iteration.hpp"
 
 namespace quicksand {
 
@@ -78,7 +77,6 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       gas_pressure_(domain_.layout()),
       outer_pressure_(domain_.layout(), parameters_.ambient_pressure) {
   state_.pressure.fill(parameters_.ambient_pressure);
-  if (diffusion_.multiplier.size() > 0) rigid_ = CellField(domain_.layout());
 }
 
 template <int Dim>
@@ -119,8 +117,8 @@ void Flow<Dim>::initialize() {
   const CellVectors<Dim> none(domain_.layout());
   const double dt = 1;
   add_uniform(grid.layout(), grid.cells(), none, dt, parameters_.gravity, u_hat_);
-  require_converged(solve_pressure(domain_, Projected::acceleration, CellField(), u_hat_, rho_, elements_,
-                                   outer_pressure_, dt, parameters_.linear, projection_, state_.pressure),
+  require_converged(solve_pressure(domain_, Projected::acceleration, 0.0, u_hat_, rho_, elements_, outer_pressure_, dt,
+                                   parameters_.linear, projection_, state_.pressure),
                     "initial pressure");
   add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -dt, u_hat_);
   state_.acceleration = u_hat_;
@@ -152,10 +150,10 @@ void Flow<Dim>::project(double dt, StepReport& report) {
   CellVectors<Dim>& u_bar_star = u_hat_;
   u_bar_star = next_.u;
   const double before = kinetic_energy(grid, next_rho_, u_bar_star);
-  const auto solve = [&](const CellField& rigid) {
+  const auto solve = [&](double memory) {
     next_.pressure = state_.pressure;
     const SolveReport solved =
-        solve_pressure(domain_, Projected::velocity, rigid, u_bar_star, next_rho_, next_elements_, outer_pressure_, dt,
+        solve_pressure(domain_, Projected::velocity, memory, u_bar_star, next_rho_, next_elements_, outer_pressure_, dt,
                        parameters_.linear, projection_, next_.pressure);
     report.projection.iterations += solved.iterations;
     report.gas_work = gas_work(domain_, u_bar_star, next_rho_, next_elements_, dt, projection_);
@@ -163,12 +161,12 @@ void Flow<Dim>::project(double dt, StepReport& report) {
     add_pressure_gradient(domain_, next_.pressure, next_rho_, next_elements_, -dt, next_.u);
     report.projection_energy_change = kinetic_energy(grid, next_rho_, next_.u) - before;
   };
-  if (rigid_.size() > 0 && report.diffusion.multiplier_updates > 0) {
-    mark_rigid_cells(domain_, diffusion_, rigid_);
-    solve(rigid_);
+  // What a yield stress holds is to stay at rest; where that costs energy the pressure is found without memory.
+  if (diffusion_.has_yield_stress()) {
+    solve(1);
     if (report.projection_energy_change <= report.gas_work) return;
   }
-  solve(CellField());
+  solve(0);
 }
 
 /// One step of the report's algorithm:

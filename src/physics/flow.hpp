@@ -112,7 +112,6 @@ class Flow {
   Interfaces<Dim> interfaces_, next_interfaces_;
   PressureElements<Dim> elements_, next_elements_;
   CellVectors<Dim> momentum_tilde_, u_bar_, u_hat_, lagged_;
-  CellField rigid_;  ///< see mark_rigid_cells(); has a size only when some species has Bingham's law
   FaceVelocities<Dim> face_velocities_;
   ConvectionWork<Dim> convection_;
   MacProjectionWork<Dim> mac_;

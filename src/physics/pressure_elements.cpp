@@ -1,10 +1,14 @@
 #include "physics/pressure_elements.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace quicksand {
 
 namespace {
+
+/// An edge that is filled less has no lever of its own: round-off should not decide on it.
+constexpr double negligible_filling = 1e-9;
 
 /// Mass on an edge and its first moment, by the edge's length.
 struct EdgeMass {
@@ -75,6 +79,8 @@ void find_levers(const Domain<Dim>& domain, const std::vector<Species>& species,
     for (const Surface<Dim>& surface : interfaces.surface) cut = cut || surface.cuts(c);
     elements.cut[c] = cut ? 1 : 0;
   });
+  double negligible = std::numeric_limits<double>::infinity();
+  for (const Species& s : species) negligible = std::min(negligible, negligible_filling * s.density);
   for (int d = 0; d < Dim; ++d) {
     Box<Dim> edges = grid.nodes();
     edges.hi[d] = grid.owned_cells()[d];
@@ -87,7 +93,7 @@ void find_levers(const Domain<Dim>& domain, const std::vector<Species>& species,
       EdgeMass edge;
       for_each_cell_at_edge(corners, n, d,
                             [&](Cell c, int k) { add_edge(interfaces, species, 6 * even - 2, c, k, d, edge); });
-      if (edge.mass > 0) elements.lever[d][n] = std::clamp(edge.moment / edge.mass, 0.0, 1.0);
+      if (edge.mass > negligible) elements.lever[d][n] = std::clamp(edge.moment / edge.mass, 0.0, 1.0);
     });
     wrap(domain.layout(), edges, elements.lever[d]);
   }

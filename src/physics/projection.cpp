@@ -76,12 +76,12 @@ struct CellPressure {
   }
 };
 
-/// Matrix dt K on the free nodes, and the right-hand side: sum V u-bar* . grad N, in rigid cells the surplus of the
+/// Matrix dt K on the free nodes, and the right-hand side: sum V u-bar* . grad N, the remembered surplus of the
 /// stiffness on the last pressure, less what the given nodes contribute.
 /// \param increment  the last pressure on free nodes, the given one on others
 template <int Dim>
 void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellField& rho,
-              const PressureElements<Dim>& elements, double dt, const CellField& rigid, const NodeField& increment,
+              const PressureElements<Dim>& elements, double dt, double memory, const NodeField& increment,
               ProjectionWork<Dim>& work) {
   using C = Corners<Dim>;
   const Grid<Dim>& grid = domain.grid;
@@ -100,7 +100,6 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
   for_each_coloured<Cell>(layout, intersect(cells, grid.cells()), [&](Cell c, const Index<Dim>& i) {
     if (!elements.bears[c]) return;
     const double scale = dt / rho[c];
-    const double memory = rigid.size() > 0 ? scale * rigid[c] : 0.0;
     const CellPressure<Dim> cell(grid, corners, elements, c, i);
     Node corner[C::count];
     for (int k = 0; k < C::count; ++k) corner[k] = C::of_cell(layout, c, i, k);
@@ -115,7 +114,7 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
         if (a == b) work.matrix.diagonal[na] += k;
         if (a > b && free[nb]) work.matrix.lower[pairs.offset[a][b]][na] += k;
         if (!free[nb]) source -= k * increment[nb];
-        source += memory * cell.surplus[a][b] * increment[nb];
+        source += memory * scale * cell.surplus[a][b] * increment[nb];
       }
       work.rhs[na] += source;
     }
@@ -185,10 +184,9 @@ void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure,
 }
 
 template <int Dim>
-SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const CellField& rigid,
-                           const CellVectors<Dim>& u_bar_star, const CellField& rho,
-                           const PressureElements<Dim>& elements, const NodeField& outer_pressure, double dt,
-                           const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure) {
+SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, double memory, const CellVectors<Dim>& u_bar_star,
+                           const CellField& rho, const PressureElements<Dim>& elements, const NodeField& outer_pressure,
+                           double dt, const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure) {
   const Box<Dim> nodes = domain.grid.nodes();
   const double reference = least_given(domain, elements.free, outer_pressure);
   for_each<Node>(domain.layout(), nodes, [&](Node n) {
@@ -198,7 +196,7 @@ SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const Cell
   work.matrix.box = bounding_box<Node>(domain.layout(), nodes, [&](Node n) { return elements.free[n] != 0; });
   SolveReport report{.converged = true};
   if (!work.matrix.box.empty()) {
-    assemble(domain, u_bar_star, rho, elements, dt, rigid, work.increment, work);
+    assemble(domain, u_bar_star, rho, elements, dt, memory, work.increment, work);
     if (what == Projected::velocity) add_inflow(domain, elements, work);
     report = solve(work.matrix, work.rhs, work.increment, options);
     require_converged(report, "pressure projection");
@@ -246,7 +244,7 @@ double gas_work(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, c
   template void add_pressure_gradient(const Domain<Dim>&, const NodeField&, const CellField&,                   \
                                       const PressureElements<Dim>&, double, CellVectors<Dim>&);                 \
   template void set_open_pressures(const Domain<Dim>&, NodeField&);                                             \
-  template SolveReport solve_pressure(const Domain<Dim>&, Projected, const CellField&, const CellVectors<Dim>&, \
+  template SolveReport solve_pressure(const Domain<Dim>&, Projected, double, const CellVectors<Dim>&,           \
                                       const CellField&, const PressureElements<Dim>&, const NodeField&, double, \
                                       const SolveOptions&, ProjectionWork<Dim>&, NodeField&);                   \
   template double gas_work(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&,                       \

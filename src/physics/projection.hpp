@@ -47,10 +47,9 @@ enum class Projected { velocity, acceleration };
 ///                        that are not free
 /// \throws NumericalError when the solve does not converge
 template <int Dim>
-SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, const CellField& rigid,
-                           const CellVectors<Dim>& u_bar_star, const CellField& rho,
-                           const PressureElements<Dim>& elements, const NodeField& outer_pressure, double dt,
-                           const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure);
+SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, double memory, const CellVectors<Dim>& u_bar_star,
+                           const CellField& rho, const PressureElements<Dim>& elements, const NodeField& outer_pressure,
+                           double dt, const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure);
 
 /// Work that the gas does on the liquid in the projection just solved: minus dt times the sum over the given nodes of
 /// their pressure times the volume that leaves D there, r = sum V u-bar* . grad N - dt K P. \param work  as

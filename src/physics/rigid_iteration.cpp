@@ -118,32 +118,9 @@ bool iterate_multipliers(ViscousProblem<Dim>& p, const DiffusionOptions& options
   return iterate_dual(p, goal, dual_iterations * options.max_iterations, u, report);
 }
 
-template <int Dim>
-void mark_rigid_cells(const Domain<Dim>& domain, const DiffusionWork<Dim>& work, CellField& rigid) {
-  const Grid<Dim>& grid = domain.grid;
-  CellField points(grid.layout());
-  CellField yielded(grid.layout());
-  for_each_coloured<Node>(grid.layout(), grid.nodes(), [&](Node n, const Index<Dim>& index) {
-    if (!work.elements.active[n]) return;
-    const DualElement<Dim> e = work.elements.mesh.element(n, index);
-    for (int q = 0; q < point_count<Dim>; ++q) {
-      const bool holds = is_rigid(work.multiplier[n].at[q], work.elements.rheology[n].rigid_yield_stress);
-      for (int k = 0; k < corner_count<Dim>; ++k) {
-        const double share = e.weight(q) * mid_edge_shapes<Dim>.value[q][k];
-        points[e.corner[k]] += share;
-        yielded[e.corner[k]] += holds ? 0.0 : share;
-      }
-    }
-  });
-  for_each<Cell>(grid.layout(), grid.cells(),
-                 [&](Cell c) { rigid[c] = points[c] > 0 ? 1 - yielded[c] / points[c] : 1.0; });
-}
-
 #define QUICKSAND_INSTANTIATE(Dim)                                                                      \
   template void prepare_multipliers(const Domain<Dim>&, const CellField&, double, DiffusionWork<Dim>&); \
-  template bool iterate_multipliers(ViscousProblem<Dim>&, const DiffusionOptions&, CellVectors<Dim>&,   \
-                                    DiffusionReport&);                                                  \
-  template void mark_rigid_cells(const Domain<Dim>&, const DiffusionWork<Dim>&, CellField&);
+  template bool iterate_multipliers(ViscousProblem<Dim>&, const DiffusionOptions&, CellVectors<Dim>&, DiffusionReport&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

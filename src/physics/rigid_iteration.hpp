@@ -18,10 +18,4 @@ template <int Dim>
 bool iterate_multipliers(ViscousProblem<Dim>& p, const DiffusionOptions& options, CellVectors<Dim>& u,
                          DiffusionReport& report);
 
-/// Part of each cell that does not give way: 1 less the share of its stress points that have yielded or whose law has
-/// no rigid state. 1 in cells without stress points.
-/// \param work  as iterate_multipliers() left it \param rigid  owned cells
-template <int Dim>
-void mark_rigid_cells(const Domain<Dim>& domain, const DiffusionWork<Dim>& work, CellField& rigid);
-
 }  // namespace quicksand

@@ -10,6 +10,9 @@ namespace {
 /// A regularised law reaches the yield stress nowhere; within a per cent of it the material counts as yielded.
 constexpr double yielding_share = 0.99;
 
+/// A viscous stress below this part of a rigid yield stress is the error of a plug's rigidity.
+constexpr double plug_share = 1e-3;
+
 }  // namespace
 
 template <int Dim>
@@ -34,8 +37,10 @@ StressFields evaluate_stress(const Flow<Dim>& flow) {
         const StrainRate<Dim>& rigid = flow.rigid_stress()[n].at[q];
         const double size = std::sqrt(inner(rigid, rigid));
         magnitude = add_scaled(rigid, f, s).scalar;
+        // In a plug that moves the solver may leave the stress at the yield stress.
+        const bool creeps = f > 0 && f * s.scalar < plug_share * rheology.rigid_yield_stress;
+        unyielded = creeps || is_rigid(rigid, rheology.rigid_yield_stress);
         f += std::min(size / std::max(s.scalar, 1e-300), flow.rigid_viscosity());
-        unyielded = is_rigid(rigid, rheology.rigid_yield_stress);
       }
       for (int k = 0; k < corner_count<Dim>; ++k) {
         const double share = e.weight(q) * mid_edge_shapes<Dim>.value[q][k];

@@ -38,12 +38,14 @@ Vortex find_vortex(const Flow<2>& flow) {
   return vortex;
 }
 
-Flow<2> cavity(const Law& law, int n) {
+CaseConfig cavity_case(const Law& law, int n) {
   CaseConfig config = testing::shipped_case("cavity/cavity");
   config.species.front().law = law;
   config.grid.x.front().cells = config.grid.z.front().cells = n;
-  return testing::steady_flow<2>(config);
+  return config;
 }
+
+Flow<2> cavity(const Law& law, int n) { return testing::steady_flow<2>(cavity_case(law, n)); }
 
 void expect_vortex(const Flow<2>& flow, double height, double stream, double height_error, double stream_error) {
   const Vortex vortex = find_vortex(flow);
@@ -53,7 +55,7 @@ void expect_vortex(const Flow<2>& flow, double height, double stream, double hei
 
 TEST(Cavity, NewtonianVortexOnACoarseGrid) { expect_vortex(cavity(Newtonian{1}, 32), 0.7650, 0.1001, 0.005, 0.015); }
 
-TEST(Cavity, SlowVorticesOfYieldStressLiquids) {
+TEST(Cavity, VorticesOfYieldStressLiquids) {
   expect_vortex(cavity(Newtonian{1}, 64), 0.7650, 0.1001, 0.002, 0.005);
   const double values[][3] = {{1, 0.7956, 0.0868}, {2, 0.8155, 0.0781}, {5, 0.8478, 0.0634}};
   for (const auto& [bingham_number, height, stream] : values) {
@@ -63,8 +65,10 @@ TEST(Cavity, SlowVorticesOfYieldStressLiquids) {
 }
 
 TEST(Cavity, SlowRigidZonesOfBinghamsLaw) {
-  // Unyielded on x = 0.5 at Bn = 5: 0 to 0.188 and 0.648 to 0.766.
-  const Flow<2> flow = cavity(Bingham{1, 5}, 64);
+  // Unyielded on x = 0.5 at Bn = 5: 0 to 0.188 and 0.648 to 0.766. Their borders settle long after the vortex.
+  const CaseConfig config = cavity_case(Bingham{1, 5}, 64);
+  Flow<2> flow = build_flow<2>(config);
+  testing::run(config, flow);
   expect_vortex(flow, 0.8478, 0.0634, 0.005, 0.015);
   const Grid<2>& grid = flow.domain().grid;
   const CellField unyielded = evaluate_stress(flow).unyielded;

@@ -100,7 +100,8 @@ TEST(Periodic, AFlowShiftsWithItsStartWhereMultigridSolves) {
                        "{fill: mud, shape: {box: {from: [0, 0, 0], to: [2, 0, 0.8]}}}, "
                        "{fill: mud, shape: {box: {from: [1.2, 0, 0.9], to: [1.8, 0, 1.1]}}, velocity: [1, 0, -1]}");
   };
-  expect_shifts_with_its_start<2>(pool(64, inviscid), {{23, 0}}, 10);
+  // Until the drop meets the pool: which cells then hold pressure round-off may decide.
+  expect_shifts_with_its_start<2>(pool(64, inviscid), {{23, 0}}, 6);
   expect_shifts_with_its_start<2>(pool(64, mud), {{23, 0}}, 4);
   expect_shifts_with_its_start<2>(pool(67, inviscid), {{23, 0}}, 4);
 }
