@@ -11,7 +11,7 @@ namespace {
 constexpr double yielding_share = 0.99;
 
 /// A viscous stress below this part of a rigid yield stress is the error of a plug's rigidity.
-constexpr double plug_share = 1e-3;
+constexpr double plug_share = 1e-4;
 
 }  // namespace
 

