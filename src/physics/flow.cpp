@@ -152,10 +152,10 @@ void Flow<Dim>::project(double dt, StepReport& report) {
   const double before = kinetic_energy(grid, next_rho_, u_bar_star);
   const auto solve = [&](double memory) {
     next_.pressure = state_.pressure;
-    const SolveReport solved =
-        solve_pressure(domain_, Projected::velocity, memory, u_bar_star, next_rho_, next_elements_, outer_pressure_, dt,
-                       parameters_.linear, projection_, next_.pressure);
-    report.projection.iterations += solved.iterations;
+    SolveReport solved = solve_pressure(domain_, Projected::velocity, memory, u_bar_star, next_rho_, next_elements_,
+                                        outer_pressure_, dt, parameters_.linear, projection_, next_.pressure);
+    solved.iterations += report.projection.iterations;
+    report.projection = solved;
     report.gas_work = gas_work(domain_, u_bar_star, next_rho_, next_elements_, dt, projection_);
     next_.u = u_bar_star;
     add_pressure_gradient(domain_, next_.pressure, next_rho_, next_elements_, -dt, next_.u);

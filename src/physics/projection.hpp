@@ -37,13 +37,14 @@ enum class Projected { velocity, acceleration };
 
 /// Solves dt div(1/rho grad P) = div u-bar* in D (51), with P = outer_pressure on nodes that are not free.
 ///
-/// Deviates from the report: the matrix K holds more than the divergence of the elements' mean gradients. In cells that
-/// do not give way the surplus acts on P - P^{n-1/2} in place of P, so that a pressure that balances all other forces
-/// is found again, and what is at rest stays so. Kinetic energy may then rise by more than gas_work(), by as much as
-/// the surplus of P^{n-1/2}; without rigid cells it can't, but for what an inflow brings. \param rigid           part
-/// of each cell that does not give way; without size: none does \param u_bar_star      (52), owned cells \param
-/// outer_pressure  pressure of the gas around each node, and of open sides on their nodes \param pressure        the
-/// last step's pressure on entry (first guess), P^{n+1/2} on return; outer_pressure on nodes
+/// Deviates from the report: the matrix K holds more than the divergence of the elements' mean gradients. This surplus
+/// may act on P - memory P^{n-1/2} in place of P: with memory = 1 a pressure that balances all other forces is found
+/// again, and what is at rest stays so. Kinetic energy may then rise by more than gas_work(), by as much as the surplus
+/// of P^{n-1/2}; with memory = 0 it can't, but for what an inflow brings.
+///
+/// \param u_bar_star      (52), owned cells
+/// \param outer_pressure  pressure of the gas around each node, and of open sides on their nodes
+/// \param pressure        the last step's pressure on entry (first guess), P^{n+1/2} on return; outer_pressure on nodes
 ///                        that are not free
 /// \throws NumericalError when the solve does not converge
 template <int Dim>
