@@ -30,6 +30,13 @@ inline constexpr Dimension pressure{1, -1, -2};
 inline constexpr Dimension viscosity{1, -1, -1};
 }  // namespace dimension
 
+/// Sizes in SI of the units in which constants of explosives are listed.
+namespace traditional {
+inline constexpr double foot = 0.3048;
+inline constexpr double pound = 0.45359237;
+inline constexpr double foot_of_water = 1000 * 9.80665 * foot;  ///< conventional water and standard gravity
+}  // namespace traditional
+
 /// Name of a dimension with an example unit, e.g. `a pressure (such as Pa)`.
 std::string to_string(const Dimension& dimension);
 
