@@ -46,7 +46,7 @@ struct Unit {
   double factor = 1;
 };
 
-/// Reads a product of unit symbols with integer powers, such as `kg/m^3`, `Pa s`, `m*s^-2`, `1/in`.
+/// Reads a product of units with integer powers, such as `kg/m^3`, `Pa s`, `m*s^-2`, `1/in`; see find_unit().
 /// \throws InputError naming the symbol that is not known
 Unit parse_unit(std::string_view text);
 
