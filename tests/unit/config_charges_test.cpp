@@ -104,6 +104,26 @@ TEST(ConfigCharges, StartTheFlowWithTheirGas) {
   EXPECT_NEAR(bubble.volume / (M_PI / 2 * std::pow(charge.bubble.minimum_radius, 2)), 1, 1e-10);
 }
 
+TEST(ConfigCharges, StartWithTheVolumeOfTheirBall) {
+  // Four to five cells per radius of 0.25 in, on stretched axes.
+  const std::vector<std::string> fine = {
+      "grid.x=[{from: 0, to: 0.4 in, cells: 7}, {to: 1 in, cells: 5, stretch: smooth}]",
+      "grid.z=[{from: -4.5 in, to: -3.8 in, cells: 5, stretch: smooth}, {to: -3.1 in, cells: 12}]",
+      "initial=[{fill: water, shape: {layer: {bottom: -4.5 in, top: -3.1 in}}}]"};
+  const CaseConfig turned = parse_case(ball(planar_case), "case.yaml", fine);
+  const double radius = place_charge(turned, turned.charges[0]).bubble.minimum_radius;
+  const double volume = 4 * M_PI / 3 * std::pow(radius, 3);
+  EXPECT_NEAR(2 * M_PI * build_flow<2>(turned).state().gas.bubbles.at(0).volume / volume, 1, 1e-10);
+
+  std::string space =
+      with("dimension: 2\n", "dimension: 3\n  y: {from: -0.5 in, to: 0.5 in, cells: 18}\n", planar_case);
+  space = with("x_max: no_slip", "x_max: no_slip\n  y_min: no_slip\n  y_max: no_slip",
+               with(", thickness: 2 in", "", space));
+  space = with("[0, -3.5 in]", "[0, 0.01 in, -3.5 in]", space);
+  const CaseConfig half = parse_case(space, "case.yaml", fine);
+  EXPECT_NEAR(2 * build_flow<3>(half).state().gas.bubbles.at(0).volume / volume, 1, 1e-10);
+}
+
 TEST(ConfigCharges, AreReported) {
   const std::string planar = case_report(parse_case(planar_case, "case.yaml"));
   for (const std::string part : {"depth 0.0889", "P_inf 1.022e+05", "radius ratio 41.567", "A_min 0.0025872",
