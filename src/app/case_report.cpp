@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "app/build_flow.hpp"
+#include "app/grid_sequence.hpp"
 #include "app/initial_bubbles.hpp"
 #include "app/time_control.hpp"
 #include "core/config_node.hpp"
@@ -99,9 +100,10 @@ struct InitialState {
   CellField liquid;             ///< sum of fractions
 };
 
+/// The start on the first grid of the run.
 template <int Dim>
 InitialState<Dim> fill_cells(const CaseConfig& config) {
-  Grid<Dim> grid = make_grid<Dim>(config.grid);
+  Grid<Dim> grid = GridSequence<Dim>(config).first().grid;
   InitialState<Dim> state{std::move(grid), {}, {}};
   state.liquid = CellField(state.grid.layout());
   const Box<Dim> cells = state.grid.cells();
