@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "app/case_codec.hpp"
+#include "app/crater_codec.hpp"
 #include "app/shape_checks.hpp"
 #include "core/errors.hpp"
 
@@ -234,6 +235,7 @@ void check_case(const CaseConfig& config, Reading& reading) {
   check_bubbles(config, reading);
   check_time(config.time, reading);
   check_output(config, reading);
+  check_crater(config, reading);
 }
 
 }  // namespace quicksand

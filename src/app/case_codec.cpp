@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 
+#include "app/crater_codec.hpp"
 #include "core/config_variant.hpp"
 
 namespace quicksand {
@@ -293,6 +294,7 @@ Codec<OutputSettings> output_codec() {
       defaulted("directory", &OutputSettings::directory, text(), "folder of the results"),
       defaulted("fields", &OutputSettings::fields, schedule, "when fields are written; neither key: start and end"),
       defaulted("history", &OutputSettings::history, flag(), "whether history.csv is written"),
+      maybe("crater", &OutputSettings::crater, crater_codec(), "the crater in a bed, measured"),
   });
 }
 

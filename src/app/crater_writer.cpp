@@ -1,0 +1,86 @@
+#include "app/crater_writer.hpp"
+
+#include <cmath>
+
+#include "physics/crater.hpp"
+
+namespace quicksand {
+
+namespace {
+
+/// A step that ends this close before a multiple of the interval, relative to it, has reached it.
+constexpr double slack = 1e-9;
+
+template <int Dim>
+std::vector<std::string> crater_columns() {
+  if (Dim == 3) {
+    return {"step",    "time",   "level",   "depth",      "deepest_x", "deepest_y", "width_x",
+            "width_y", "volume", "covered", "lip_height", "lip_x",     "lip_y",     "volume_of_lip"};
+  }
+  return {"step",   "time",    "level",      "depth", "deepest_x",    "width",
+          "volume", "covered", "lip_height", "lip_x", "volume_of_lip"};
+}
+
+std::vector<std::string> profile_columns(int dimension) {
+  if (dimension == 3) return {"step", "time", "x", "y", "surface", "top"};
+  return {"step", "time", "x", "surface", "top"};
+}
+
+/// One line per column of the profile.
+template <int Dim>
+std::vector<std::vector<double>> profile_lines(const BedProfile<Dim>& profile, long step, double time) {
+  std::vector<std::vector<double>> lines;
+  for (std::size_t n = 0; n < profile.surface.size(); ++n) {
+    std::vector<double>& line = lines.emplace_back(std::vector<double>{static_cast<double>(step), time});
+    for (std::size_t rest = n, d = 0; d + 1 < Dim; ++d) {
+      const std::vector<double>& centre = profile.axes[d].centre;
+      line.push_back(centre[rest % centre.size()]);
+      rest /= centre.size();
+    }
+    line.insert(line.end(), {profile.surface[n], profile.top[n]});
+  }
+  return lines;
+}
+
+}  // namespace
+
+template <int Dim>
+CraterWriter<Dim>::CraterWriter(const CaseConfig& config, const std::filesystem::path& folder)
+    : settings_(*config.output.crater),
+      species_(species_number(config, settings_.species)),
+      crater_(folder / "crater.csv", crater_columns<Dim>()),
+      profiles_(folder / "crater_profiles.csv", profile_columns(Dim)),
+      level_(settings_.level) {}
+
+template <int Dim>
+void CraterWriter<Dim>::append(const Flow<Dim>& flow) {
+  const State<Dim>& state = flow.state();
+  if (state.step == last_step_) return;
+  const BedProfile<Dim> profile = bed_profile(flow.domain(), state.phi[species_]);
+  if (!level_) level_ = median_height(profile);
+  const Crater<Dim> crater = measure_crater(profile, *level_);
+
+  std::vector<double> line = {static_cast<double>(state.step), state.time, *level_, crater.depth};
+  const auto add = [&line](const Vec<Dim - 1>& v) { line.insert(line.end(), v.v, v.v + Dim - 1); };
+  add(crater.deepest);
+  add(crater.width);
+  line.insert(line.end(), {crater.volume, crater.covered, crater.lip_height});
+  add(crater.lip);
+  line.push_back(crater.volume_of_lip);
+  profiles_.append_lines(profile_lines(profile, state.step, state.time));
+  crater_.append(line);
+  last_step_ = state.step;
+  last_time_ = state.time;
+}
+
+template <int Dim>
+void CraterWriter<Dim>::append_when_due(const Flow<Dim>& flow) {
+  if (!settings_.every) return;
+  const auto intervals = [&](double time) { return std::floor(time / *settings_.every + slack); };
+  if (intervals(flow.state().time) > intervals(last_time_)) append(flow);
+}
+
+template class CraterWriter<2>;
+template class CraterWriter<3>;
+
+}  // namespace quicksand
