@@ -11,14 +11,15 @@ namespace {
 /// A step that ends this close before a multiple of the interval, relative to it, has reached it.
 constexpr double slack = 1e-9;
 
-template <int Dim>
-std::vector<std::string> crater_columns() {
-  if (Dim == 3) {
-    return {"step",    "time",   "level",   "depth",      "deepest_x", "deepest_y", "width_x",
-            "width_y", "volume", "covered", "lip_height", "lip_x",     "lip_y",     "volume_of_lip"};
+std::vector<std::string> crater_columns(int dimension) {
+  if (dimension == 3) {
+    return {"step",           "time",           "level",        "depth",        "deepest_x",
+            "deepest_y",      "width_x",        "width_y",      "volume",       "open_depth",
+            "open_deepest_x", "open_deepest_y", "open_width_x", "open_width_y", "open_volume",
+            "lip_height",     "lip_x",          "lip_y",        "volume_of_lip"};
   }
-  return {"step",   "time",    "level",      "depth", "deepest_x",    "width",
-          "volume", "covered", "lip_height", "lip_x", "volume_of_lip"};
+  return {"step",       "time",           "level",      "depth",       "deepest_x",  "width", "volume",
+          "open_depth", "open_deepest_x", "open_width", "open_volume", "lip_height", "lip_x", "volume_of_lip"};
 }
 
 std::vector<std::string> profile_columns(int dimension) {
@@ -48,7 +49,7 @@ template <int Dim>
 CraterWriter<Dim>::CraterWriter(const CaseConfig& config, const std::filesystem::path& folder)
     : settings_(*config.output.crater),
       species_(species_number(config, settings_.species)),
-      crater_(folder / "crater.csv", crater_columns<Dim>()),
+      crater_(folder / "crater.csv", crater_columns(Dim)),
       profiles_(folder / "crater_profiles.csv", profile_columns(Dim)),
       level_(settings_.level) {}
 
@@ -60,11 +61,15 @@ void CraterWriter<Dim>::append(const Flow<Dim>& flow) {
   if (!level_) level_ = median_height(profile);
   const Crater<Dim> crater = measure_crater(profile, *level_);
 
-  std::vector<double> line = {static_cast<double>(state.step), state.time, *level_, crater.depth};
+  std::vector<double> line = {static_cast<double>(state.step), state.time, *level_};
   const auto add = [&line](const Vec<Dim - 1>& v) { line.insert(line.end(), v.v, v.v + Dim - 1); };
-  add(crater.deepest);
-  add(crater.width);
-  line.insert(line.end(), {crater.volume, crater.covered, crater.lip_height});
+  for (const Hollow<Dim>& hollow : {crater.whole, crater.open}) {
+    line.push_back(hollow.depth);
+    add(hollow.deepest);
+    add(hollow.width);
+    line.push_back(hollow.volume);
+  }
+  line.push_back(crater.lip_height);
   add(crater.lip);
   line.push_back(crater.volume_of_lip);
   profiles_.append_lines(profile_lines(profile, state.step, state.time));

@@ -61,66 +61,71 @@ double width_of(const ProfileAxis& axis, const Span& span) {
   return span.high - span.low;
 }
 
-/// Width along d: of what the crossings of all rows along d enclose.
+/// Width along d of a surface with these heights: of what the crossings of all rows along d enclose.
 template <int Dim>
-double width_along(const BedProfile<Dim>& profile, int d, double level, double deep) {
+double width_along(const BedProfile<Dim>& profile, const std::vector<double>& heights, int d, double level,
+                   double deep) {
   std::size_t stride = 1;
   for (int e = 0; e < d; ++e) stride *= profile.axes[static_cast<std::size_t>(e)].centre.size();
   const ProfileAxis& axis = profile.axes[static_cast<std::size_t>(d)];
   Span widest{axis.high, axis.low};
-  for (std::size_t start = 0; start < profile.surface.size(); ++start) {
+  for (std::size_t start = 0; start < heights.size(); ++start) {
     if (start / stride % axis.centre.size() != 0) continue;
-    const Span span = span_of(axis, level, deep, [&](std::size_t i) { return profile.surface[start + i * stride]; });
+    const Span span = span_of(axis, level, deep, [&](std::size_t i) { return heights[start + i * stride]; });
     if (!(span.high > span.low)) continue;
     widest = {std::min(widest.low, span.low), std::max(widest.high, span.high)};
   }
   return width_of(axis, widest);
 }
 
+/// What lies between the level and a surface with these heights.
+template <int Dim>
+Hollow<Dim> measure_hollow(const BedProfile<Dim>& profile, const std::vector<double>& heights, double level) {
+  Hollow<Dim> hollow;
+  const auto lowest = static_cast<std::size_t>(std::min_element(heights.begin(), heights.end()) - heights.begin());
+  if (!(heights[lowest] < level)) return hollow;
+  hollow.depth = level - heights[lowest];
+  hollow.deepest = position(profile, lowest);
+  for (std::size_t n = 0; n < heights.size(); ++n) {
+    hollow.volume += profile.area[n] * std::max(level - heights[n], 0.0);
+  }
+  if (hollow.depth > least_cells * profile.resolution) {
+    const double deep = level - least_depth * hollow.depth;
+    const double edge = level - std::min(level_cells * profile.resolution, level_depth * hollow.depth);
+    for (int d = 0; d < Dim - 1; ++d) hollow.width[d] = width_along(profile, heights, d, edge, deep);
+  }
+  return hollow;
+}
+
 }  // namespace
 
 template <int Dim>
 double median_height(const BedProfile<Dim>& profile) {
-  std::vector<std::size_t> by_height(profile.surface.size());
+  const std::vector<double>& z = profile.top;
+  std::vector<std::size_t> by_height(z.size());
   std::iota(by_height.begin(), by_height.end(), std::size_t{0});
-  std::stable_sort(by_height.begin(), by_height.end(),
-                   [&](std::size_t a, std::size_t b) { return profile.surface[a] < profile.surface[b]; });
+  std::stable_sort(by_height.begin(), by_height.end(), [&](std::size_t a, std::size_t b) { return z[a] < z[b]; });
   const double whole = std::accumulate(profile.area.begin(), profile.area.end(), 0.0);
   double below = 0;
   for (const std::size_t n : by_height) {
     below += profile.area[n];
-    if (below >= whole / 2) return profile.surface[n];
+    if (below >= whole / 2) return z[n];
   }
-  return profile.surface[by_height.back()];
+  return z[by_height.back()];
 }
 
 template <int Dim>
 Crater<Dim> measure_crater(const BedProfile<Dim>& profile, double level) {
-  const std::vector<double>& z = profile.surface;
+  const std::vector<double>& top = profile.top;
   Crater<Dim> crater;
-  const auto lowest = static_cast<std::size_t>(std::min_element(z.begin(), z.end()) - z.begin());
-  const auto highest = static_cast<std::size_t>(std::max_element(z.begin(), z.end()) - z.begin());
-  if (z[lowest] < level) {
-    crater.depth = level - z[lowest];
-    crater.deepest = position(profile, lowest);
-  }
-  if (z[highest] > level) {
-    crater.lip_height = z[highest] - level;
-    crater.lip = position(profile, highest);
-  }
-  double plan = 0;
-  for (std::size_t n = 0; n < z.size(); ++n) {
-    const double volume = profile.area[n] * (level - z[n]);
-    (volume > 0 ? crater.volume : crater.volume_of_lip) += volume > 0 ? volume : -volume;
-    if (!(volume > 0)) continue;
-    plan += profile.area[n];
-    if (profile.top[n] > z[n]) crater.covered += profile.area[n];
-  }
-  if (plan > 0) crater.covered /= plan;
-  if (crater.depth > least_cells * profile.resolution) {
-    const double deep = level - least_depth * crater.depth;
-    const double edge = level - std::min(level_cells * profile.resolution, level_depth * crater.depth);
-    for (int d = 0; d < Dim - 1; ++d) crater.width[d] = width_along(profile, d, edge, deep);
+  crater.whole = measure_hollow(profile, profile.surface, level);
+  crater.open = measure_hollow(profile, top, level);
+  const auto highest = static_cast<std::size_t>(std::max_element(top.begin(), top.end()) - top.begin());
+  if (!(top[highest] > level)) return crater;
+  crater.lip_height = top[highest] - level;
+  crater.lip = position(profile, highest);
+  for (std::size_t n = 0; n < top.size(); ++n) {
+    crater.volume_of_lip += profile.area[n] * std::max(top[n] - level, 0.0);
   }
   return crater;
 }

@@ -5,20 +5,27 @@
 
 namespace quicksand {
 
-/// Measures of a crater with respect to the level of the undisturbed bed. A bed without a crater has zeros.
+/// What lies below the level of the undisturbed bed. Zeros where nothing does.
 template <int Dim>
-struct Crater {
-  double depth = 0;          ///< of the deepest column's surface below the level
-  Vec<Dim - 1> deepest;      ///< where that column is
-  Vec<Dim - 1> width;        ///< along x (and y) between the surface's crossings of the level
-  double volume = 0;         ///< below the level, down to the surface
-  double covered = 0;        ///< share of the crater's plan area under sand that overhangs it
-  double lip_height = 0;     ///< of the highest column's surface above the level
-  Vec<Dim - 1> lip;          ///< where that column is
-  double volume_of_lip = 0;  ///< above the level, up to the surface
+struct Hollow {
+  double depth = 0;      ///< of the deepest column below the level
+  Vec<Dim - 1> deepest;  ///< where that column is
+  Vec<Dim - 1> width;    ///< along x (and y) between crossings of the level
+  double volume = 0;
 };
 
-/// Height that half of a bed's plan area stays below: the level of a flat bed, whatever the charge has cut out of it.
+/// Measures of a crater with respect to the level of the undisturbed bed.
+template <int Dim>
+struct Crater {
+  Hollow<Dim> whole;         ///< down to BedProfile::surface, with cavities that sand covers
+  Hollow<Dim> open;          ///< down to BedProfile::top: what can be seen from above
+  double lip_height = 0;     ///< of the highest column's top above the level
+  Vec<Dim - 1> lip;          ///< where that column is
+  double volume_of_lip = 0;  ///< above the level, up to the top
+};
+
+/// Height that the tops of half of a bed's plan area stay below: the level of a flat bed, whatever the charge has cut
+/// out of it.
 template <int Dim>
 double median_height(const BedProfile<Dim>& profile);
 

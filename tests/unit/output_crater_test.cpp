@@ -44,10 +44,7 @@ TEST_F(CraterWriterTest, WritesWhenDueOnAnyGrid) {
   writer.append(at(config, 10, 0.41));
   const std::string table = content(path("crater.csv"));
   EXPECT_EQ(lines(table), 4U);
-  EXPECT_EQ(
-      table.rfind("step,time,level,depth,deepest_x,width,volume,covered,lip_height,lip_x,volume_of_lip\n0,0,0.4,", 0),
-      0U)
-      << table;
+  EXPECT_EQ(table.rfind("step,time,level,depth,deepest_x,width,volume,open_depth,", 0), 0U) << table;
   const std::string profiles = content(path("crater_profiles.csv"));
   EXPECT_EQ(lines(profiles), 1U + 10 + 10 + 20);
   EXPECT_EQ(profiles.rfind("step,time,x,surface,top\n0,0,0.025,0.1,0.1\n", 0), 0U) << profiles;

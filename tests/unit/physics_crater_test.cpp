@@ -57,7 +57,7 @@ TEST(BedProfile, PlanesAreExactOnUnevenGrids) {
     const BedProfile<2> profile = bed_profile(domain, bed_below<2>(domain.grid, [z](const Vec<2>&) { return z; }));
     for (const double surface : profile.surface) EXPECT_NEAR(surface, z, 1e-14);
     EXPECT_NEAR(median_height(profile), z, 1e-14);
-    EXPECT_EQ(measure_crater(profile, z).width[0], 0);
+    EXPECT_EQ(measure_crater(profile, z).whole.width[0], 0);
   }
   const Domain<2> square = testing::make_domain(testing::planar_grid(20), SideKind::no_slip);
   const BedProfile<2> slope =
@@ -90,8 +90,9 @@ TEST(BedProfile, CavitiesAndOverhangs) {
     EXPECT_NEAR(profile.top[n], 0.5, 1e-14) << n;
   }
   const Crater<2> crater = measure_crater(profile, 0.5);
-  EXPECT_NEAR(crater.volume, 0.25 * 0.25, 1e-14);
-  EXPECT_EQ(crater.covered, 1);
+  EXPECT_NEAR(crater.whole.volume, 0.25 * 0.25, 1e-14);
+  EXPECT_EQ(crater.open.volume, 0);
+  EXPECT_EQ(crater.open.width[0], 0);
 }
 
 TEST(Crater, ParabolaWithLip) {
@@ -101,14 +102,15 @@ TEST(Crater, ParabolaWithLip) {
         bed_profile(domain, bed_below<2>(domain.grid, [](const Vec<2>& x) { return parabola_with_lip(x[0]); }));
     const Crater<2> crater = measure_crater(profile, 0.5);
     const double h = 1.0 / n;
-    EXPECT_NEAR(crater.depth, 0.25, 0.5 * h * h);
-    EXPECT_NEAR(crater.deepest[0], 0, h);
-    EXPECT_NEAR(crater.width[0], 1, h);
-    EXPECT_NEAR(crater.volume, 1.0 / 6, h * h);
+    EXPECT_NEAR(crater.whole.depth, 0.25, 0.5 * h * h);
+    EXPECT_NEAR(crater.whole.deepest[0], 0, h);
+    EXPECT_NEAR(crater.whole.width[0], 1, h);
+    EXPECT_NEAR(crater.whole.volume, 1.0 / 6, h * h);
     EXPECT_NEAR(crater.lip_height, 0.1, 0.3 * h);
     EXPECT_NEAR(std::abs(crater.lip[0]), 0.75, h);
     EXPECT_NEAR(crater.volume_of_lip, 2 * 0.025, h * h);
-    EXPECT_EQ(crater.covered, 0);
+    EXPECT_EQ(crater.open.volume, crater.whole.volume);
+    EXPECT_EQ(crater.open.width[0], crater.whole.width[0]);
   }
 }
 
@@ -118,9 +120,9 @@ TEST(Crater, HalfIsReportedAsTheWhole) {
   const Crater<2> all = measure_crater(bed_profile(whole, bed_below<2>(whole.grid, height)), 0.5);
   const Domain<2> part = plane(40, 40, 0, SideKind::symmetry);
   const Crater<2> half = measure_crater(bed_profile(part, bed_below<2>(part.grid, height)), 0.5);
-  EXPECT_NEAR(half.depth, all.depth, 1e-12);
-  EXPECT_NEAR(half.width[0], all.width[0], 1e-12);
-  EXPECT_NEAR(half.volume, all.volume, 1e-12);
+  EXPECT_NEAR(half.whole.depth, all.whole.depth, 1e-12);
+  EXPECT_NEAR(half.whole.width[0], all.whole.width[0], 1e-12);
+  EXPECT_NEAR(half.whole.volume, all.whole.volume, 1e-12);
   EXPECT_NEAR(half.volume_of_lip, all.volume_of_lip, 1e-12);
 }
 
@@ -130,8 +132,8 @@ TEST(Crater, WholeCircle) {
       bed_profile(domain, bed_below<2>(domain.grid, [](const Vec<2>& x) { return parabola_with_lip(x[0]); }));
   EXPECT_NEAR(median_height(profile), 0.5, 0.05);
   const Crater<2> crater = measure_crater(profile, 0.5);
-  EXPECT_NEAR(crater.width[0], 1, 0.02);
-  EXPECT_NEAR(crater.volume, std::numbers::pi / 32, 1e-4);
+  EXPECT_NEAR(crater.whole.width[0], 1, 0.02);
+  EXPECT_NEAR(crater.whole.volume, std::numbers::pi / 32, 1e-4);
 }
 
 TEST(Crater, CentralPeakAndDistantRippleDoNotChangeTheWidth) {
@@ -141,7 +143,7 @@ TEST(Crater, CentralPeakAndDistantRippleDoNotChangeTheWidth) {
                                               if (r < 0.1) return 0.6;
                                               return r < 0.5 ? 0.25 + r * r : r > 0.8 ? 0.49 : 0.51;
                                             }));
-  EXPECT_NEAR(measure_crater(profile, 0.5).width[0], 1, 0.03);
+  EXPECT_NEAR(measure_crater(profile, 0.5).whole.width[0], 1, 0.03);
 }
 
 TEST(Crater, ThreeDimensions) {
@@ -155,10 +157,10 @@ TEST(Crater, ThreeDimensions) {
                   }));
   EXPECT_NEAR(median_height(profile), 0.5, 1e-14);
   const Crater<3> crater = measure_crater(profile, 0.5);
-  EXPECT_NEAR(crater.depth, 0.25, 2e-3);
-  EXPECT_NEAR(crater.width[0], 1, 0.05);
-  EXPECT_NEAR(crater.width[1], 1.4, 0.05);
-  EXPECT_NEAR(crater.volume, std::numbers::pi * 0.5 * 0.7 * 0.25 / 2, 1e-3);
+  EXPECT_NEAR(crater.whole.depth, 0.25, 2e-3);
+  EXPECT_NEAR(crater.whole.width[0], 1, 0.05);
+  EXPECT_NEAR(crater.whole.width[1], 1.4, 0.05);
+  EXPECT_NEAR(crater.whole.volume, std::numbers::pi * 0.5 * 0.7 * 0.25 / 2, 1e-3);
   EXPECT_EQ(crater.lip_height, 0);
 }
 
