@@ -4,7 +4,7 @@ Solid lines: the bed's top; dotted ones: its surface below sand that overhangs i
 """
 import numpy as np
 
-from . import style
+from . import history, style
 from .result import ResultError, Snapshot, case_value, field_files, mirror_side, read_table
 
 MOST_PROFILES = 8
@@ -88,7 +88,7 @@ def draw_profiles(axes, runs, colours, times):
     across = "r" if first.axisymmetric else "x"
     axes.set_xlabel(style.axis_label(across, first.unit))
     axes.set_ylabel(style.axis_label("z", first.unit))
-    axes.grid(color="#e4e7ea", linewidth=0.5)
+    axes.grid(color=history.GRID, linewidth=0.5)
     axes.margins(x=0)
     axes.legend(fontsize="small", ncols=1, loc="center left", bbox_to_anchor=(1.01, 0.5))
 
@@ -109,7 +109,7 @@ def draw_histories(grid, runs, colours):
         axes.set_xlabel(style.axis_label("time", unit))
         axes.set_ylim(bottom=0)
         axes.margins(x=0)
-        axes.grid(color="#e4e7ea", linewidth=0.5)
+        axes.grid(color=history.GRID, linewidth=0.5)
 
 
 def draw(pyplot, runs, path, times=None):

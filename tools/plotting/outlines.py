@@ -1,7 +1,7 @@
 """Outlines of the bubbles of several runs when they are largest, as in the report's Fig. 17."""
 import numpy as np
 
-from . import flat, style
+from . import flat, history, style
 from .result import ResultError, Snapshot, field_files, read_history, read_table
 
 
@@ -58,7 +58,7 @@ def draw(pyplot, folders, labels, prepared, path):
     names = flat.axis_names(snapshot)
     axes.set_xlabel(names[0])
     axes.set_ylabel(names[1])
-    axes.grid(color="#e4e7ea", linewidth=0.5)
+    axes.grid(color=history.GRID, linewidth=0.5)
     axes.legend(handles=handles, fontsize="small", loc="upper right")
     axes.set_title("Bubbles at their largest volume")
     figure.savefig(path)
