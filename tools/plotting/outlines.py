@@ -33,7 +33,7 @@ def outline(axes, snapshot, **form):
 
 def draw(pyplot, folders, labels, prepared, path):
     """All outlines in one picture. `prepared`: turns a folder and a snapshot into what is drawn of it."""
-    figure, axes = pyplot.subplots(figsize=(7.6, 6), dpi=130, layout="constrained")
+    figure, axes = pyplot.subplots(figsize=(8.6, 6), dpi=130, layout="constrained")
     colours = style.RC["axes.prop_cycle"].by_key()["color"]
     handles, extents = [], []
     for n, (folder, label) in enumerate(zip(folders, labels)):
@@ -59,7 +59,7 @@ def draw(pyplot, folders, labels, prepared, path):
     axes.set_xlabel(names[0])
     axes.set_ylabel(names[1])
     axes.grid(color=history.GRID, linewidth=0.5)
-    axes.legend(handles=handles, fontsize="small", loc="upper right")
+    axes.legend(handles=handles, fontsize="small", loc="upper left", bbox_to_anchor=(1.02, 1))
     axes.set_title("Bubbles at their largest volume")
     figure.savefig(path)
     pyplot.close(figure)
