@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/grid_sequence.hpp"
+
 namespace quicksand {
 
 namespace {
@@ -71,14 +73,21 @@ void cut_bubbles(const CaseConfig& config, Flow<Dim>& flow) {
 }  // namespace
 
 template <int Dim>
-Flow<Dim> build_flow(const CaseConfig& config) {
-  Flow<Dim> flow(Domain<Dim>(make_grid<Dim>(config.grid), make_sides<Dim>(config)), parameters_of<Dim>(config));
+Flow<Dim> build_flow(const CaseConfig& config, Domain<Dim> domain) {
+  Flow<Dim> flow(std::move(domain), parameters_of<Dim>(config));
   fill_shapes(config, flow);
   cut_bubbles(config, flow);
   flow.initialize();
   return flow;
 }
 
+template <int Dim>
+Flow<Dim> build_flow(const CaseConfig& config) {
+  return build_flow<Dim>(config, GridSequence<Dim>(config).first());
+}
+
+template Flow<2> build_flow<2>(const CaseConfig&, Domain<2>);
+template Flow<3> build_flow<3>(const CaseConfig&, Domain<3>);
 template Flow<2> build_flow<2>(const CaseConfig&);
 template Flow<3> build_flow<3>(const CaseConfig&);
 

@@ -18,26 +18,6 @@ constexpr Range above_one{1, std::numeric_limits<double>::infinity(), true};
 
 Codec<UnitSystem> units_codec() { return choice<UnitSystem>({{"SI", UnitSystem::si}, {"none", UnitSystem::none}}); }
 
-Codec<GridConfig> grid_codec() {
-  const auto stretch = choice<Stretch>({{"uniform", Stretch::uniform}, {"smooth", Stretch::smooth}});
-  const auto geometry = choice<Geometry>({{"planar", Geometry::planar}, {"axisymmetric", Geometry::axisymmetric}});
-  const auto axis = one_or_list_of(object<AxisSegment>({
-      maybe("from", &AxisSegment::from, quantity(dim::length), "where the segment begins"),
-      required("to", &AxisSegment::to, quantity(dim::length), "where the segment ends"),
-      required("cells", &AxisSegment::cells, whole_number(1, 1000000), "number of cells of the segment"),
-      defaulted(
-          "stretch", &AxisSegment::stretch, stretch,
-          "uniform: equal widths; smooth: geometric progression from the width of the neighbouring segment's cells"),
-  }));
-  return object<GridConfig>({
-      required("dimension", &GridConfig::dimension, whole_number(2, 3), "2 for (x, z), 3 for (x, y, z)"),
-      defaulted("geometry", &GridConfig::geometry, geometry, "planar, or axisymmetric (2-D only): x is the radius"),
-      required("x", &GridConfig::x, axis, "horizontal or radial axis: one segment or a list of them"),
-      maybe("y", &GridConfig::y, axis, "second horizontal axis, in 3-D only"),
-      required("z", &GridConfig::z, axis, "vertical axis, upwards"),
-  });
-}
-
 Codec<Inflow> inflow_codec() {
   const auto profile = choice<Profile>({{"uniform", Profile::uniform}, {"parabolic", Profile::parabolic}});
   return object<Inflow>({
@@ -314,6 +294,9 @@ Codec<CaseConfig> make_case_codec() {
                 "gas with a pressure of its own, cut out of the liquid"),
       defaulted("trapped_gas", &CaseConfig::trapped_gas, trapped_gas_codec(), "ambient gas that liquid encloses"),
       required("time", &CaseConfig::time, time_codec(), "end of the run and time step"),
+      defaulted("stages", &CaseConfig::stages, list_of(stage_codec()),
+                "grids of the first parts of the run, in order of time; the flow is moved from one to the next"),
+      maybe("regrid", &CaseConfig::regrid, regrid_codec(), "grids that follow the bubbles of the start as they grow"),
       defaulted("solver", &CaseConfig::solver, solver_codec(), "settings of the numerical method"),
       defaulted("output", &CaseConfig::output, output_codec(), "what is written, where and when"),
   });

@@ -126,6 +126,17 @@ void Flow<Dim>::initialize() {
 }
 
 template <int Dim>
+void Flow<Dim>::resume(std::vector<double> escaped) {
+  escaped_ = std::move(escaped);
+  refresh();
+  if (has_bubbles(gas_parameters(), state_.gas)) {
+    label_gas(domain_, total_, parameters_.liquid_threshold, state_.gas.region, gas_labels_);
+  }
+  find_elements(state_, total_, interfaces_, elements_);
+  mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
+}
+
+template <int Dim>
 StepReport Flow<Dim>::advance(double dt) {
   try {
     return step(dt);
