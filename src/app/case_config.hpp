@@ -105,9 +105,9 @@ struct OutputSchedule {
 
 /// What is measured of the crater in a bed.
 struct CraterSettings {
-  std::string species;          ///< what the bed is made of
-  std::optional<double> level;  ///< z of the undisturbed bed; the initial bed's median height where absent
-  std::optional<double> every;  ///< interval; whenever fields are written where absent
+  std::vector<std::string> species;  ///< what the bed is made of
+  std::optional<double> level;       ///< z of the undisturbed bed; the initial bed's median height where absent
+  std::optional<double> every;       ///< interval; whenever fields are written where absent
 };
 
 struct OutputSettings {

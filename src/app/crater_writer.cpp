@@ -48,16 +48,22 @@ std::vector<std::vector<double>> profile_lines(const BedProfile<Dim>& profile, l
 template <int Dim>
 CraterWriter<Dim>::CraterWriter(const CaseConfig& config, const std::filesystem::path& folder)
     : settings_(*config.output.crater),
-      species_(species_number(config, settings_.species)),
       crater_(folder / "crater.csv", crater_columns(Dim)),
       profiles_(folder / "crater_profiles.csv", profile_columns(Dim)),
-      level_(settings_.level) {}
+      level_(settings_.level) {
+  for (const std::string& name : settings_.species) species_.push_back(species_number(config, name));
+}
 
 template <int Dim>
 void CraterWriter<Dim>::append(const Flow<Dim>& flow) {
   const State<Dim>& state = flow.state();
   if (state.step == last_step_) return;
-  const BedProfile<Dim> profile = bed_profile(flow.domain(), state.phi[species_]);
+  CellField bed = state.phi[species_.front()];
+  for (std::size_t n = 1; n < species_.size(); ++n) {
+    const CellField& more = state.phi[species_[n]];
+    for_each<Cell>(flow.domain().layout(), flow.domain().grid.cells(), [&](Cell c) { bed[c] += more[c]; });
+  }
+  const BedProfile<Dim> profile = bed_profile(flow.domain(), bed);
   if (!level_) level_ = median_height(profile);
   const Crater<Dim> crater = measure_crater(profile, *level_);
 

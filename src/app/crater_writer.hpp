@@ -26,7 +26,7 @@ class CraterWriter {
 
  private:
   CraterSettings settings_;
-  std::size_t species_;
+  std::vector<std::size_t> species_;
   CsvWriter crater_;
   CsvWriter profiles_;
   std::optional<double> level_;

@@ -59,5 +59,14 @@ TEST_F(CraterWriterTest, TakesTheLevelOfTheCase) {
   EXPECT_NE(content(path("crater.csv")).find("\n6,1,0.5,0.4,"), std::string::npos);
 }
 
+TEST_F(CraterWriterTest, BedOfSeveralSpecies) {
+  CaseConfig config = trench("{species: [sand, water]}");
+  config.initial.back().fill = "water";  // on the floor of the trench
+  CraterWriter<2> writer(config, folder_);
+  writer.append(at(config, 0, 0));
+  EXPECT_NE(content(path("crater_profiles.csv")).find("\n0,0,0.03125,0.1,0.1\n"), std::string::npos)
+      << content(path("crater_profiles.csv"));
+}
+
 }  // namespace
 }  // namespace quicksand
