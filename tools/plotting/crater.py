@@ -8,6 +8,8 @@ from . import history, style
 from .result import ResultError, Snapshot, case_value, field_files, mirror_side, read_table
 
 MOST_PROFILES = 8
+CHANGED = 0.1  # share of the largest change of a bed from which on it counts as changed
+MARGIN = 0.33
 # Columns of crater.csv of a panel, drawn solid and dotted, and the power of a length that its unit is.
 PANELS = [("Depth", "open_depth", "depth", 1), ("Width", "open_width", "width", 1),
           ("Volume", "open_volume", "volume", None), ("Lip height", "lip_height", None, 1)]
@@ -60,37 +62,52 @@ class CraterResult:
 
 
 def draw_profile(axes, run, number, **form):
+    """Draws a profile. Returns x and how much the bed has changed there."""
     x, surface, top = run.profile(number)
     line, = axes.plot(x, top, **form)
     if np.any(surface < top):
         axes.plot(x, np.where(surface < top, surface, np.nan), color=line.get_color(), linestyle=":", linewidth=1,
                   zorder=line.get_zorder())
+    return x, np.maximum(np.abs(surface - run.level), np.abs(top - run.level))
+
+
+def near_crater(changes, domain):
+    """What to show along x: where the bed has changed, and a third more on both sides."""
+    least = CHANGED * max(change.max() for _, change in changes)
+    changed = np.concatenate([x[change > least] for x, change in changes])
+    if len(changed) == 0:
+        return domain
+    margin = MARGIN * np.ptp(changed)
+    return max(changed.min() - margin, domain[0]), min(changed.max() + margin, domain[1])
 
 
 def draw_profiles(axes, runs, colours, times):
     """One run at several times, or several runs at one."""
     first = runs[0]
+    changes = []
     if len(runs) == 1:
         wanted = [first.nearest(time) for time in times] if times else style.chosen(range(len(first.times)), MOST_PROFILES)
         shades = style.times_colours(len(wanted))
         for number, shade in zip(wanted, shades):
-            draw_profile(axes, first, number, color=shade, linewidth=2 if number == wanted[-1] else 1.2,
-                         label=style.time_label(first.times[number], first.end_time, first.si_units))
+            changes.append(draw_profile(axes, first, number, color=shade, linewidth=2 if number == wanted[-1] else 1.2,
+                                        label=style.time_label(first.times[number], first.end_time, first.si_units)))
     else:
         for run, colour in zip(runs, colours):
             number = run.nearest(times[0]) if times else len(run.times) - 1
             when = style.time_label(run.times[number], run.end_time, run.si_units)
-            draw_profile(axes, run, number, color=colour, label=f"{run.label}, t = {when}")
-    levels = {run.level for run in runs}
-    for level in levels:
+            changes.append(draw_profile(axes, run, number, color=colour, label=f"{run.label}, t = {when}"))
+    for level in {run.level for run in runs}:
         axes.axhline(level, color=style.INK, linewidth=0.8, linestyle=(0, (6, 4)), zorder=2.5)
+    axes.plot([], [], color=style.INK, linewidth=1, linestyle=":", label="below sand")
+    axes.plot([], [], color=style.INK, linewidth=0.8, linestyle=(0, (6, 4)), label="undisturbed")
+    axes.margins(x=0)
+    axes.set_xlim(near_crater(changes, axes.get_xlim()))
     axes.set_aspect("equal", adjustable="box")
     across = "r" if first.axisymmetric else "x"
     axes.set_xlabel(style.axis_label(across, first.unit))
     axes.set_ylabel(style.axis_label("z", first.unit))
     axes.grid(color=history.GRID, linewidth=0.5)
-    axes.margins(x=0)
-    axes.legend(fontsize="small", ncols=1, loc="center left", bbox_to_anchor=(1.01, 0.5))
+    axes.legend(fontsize="small", loc="center left", bbox_to_anchor=(1.01, 0.5))
 
 
 def draw_histories(grid, runs, colours):
