@@ -1,6 +1,9 @@
 #include "app/crater_writer.hpp"
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
 
 #include "physics/crater.hpp"
 
@@ -27,6 +30,32 @@ std::vector<std::string> profile_columns(int dimension) {
   return {"step", "time", "x", "surface", "top"};
 }
 
+CsvWriter open_table(const std::filesystem::path& path, std::vector<std::string> columns,
+                     std::optional<std::int64_t> last_step) {
+  return last_step ? CsvWriter(path, std::move(columns), *last_step) : CsvWriter(path, std::move(columns));
+}
+
+/// What the last line of crater.csv begins with.
+struct LastLine {
+  long step = -1;
+  double time = 0;
+  std::optional<double> level{};  ///< none where there is no line
+};
+
+LastLine read_last_line(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  std::string line;
+  std::getline(in, line);  // the names of the columns
+  LastLine last;
+  char comma = 0;
+  while (std::getline(in, line)) {
+    std::istringstream numbers(line);
+    double level = 0;
+    if (numbers >> last.step >> comma >> last.time >> comma >> level) last.level = level;
+  }
+  return last;
+}
+
 /// One line per column of the profile.
 template <int Dim>
 std::vector<std::vector<double>> profile_lines(const BedProfile<Dim>& profile, long step, double time) {
@@ -46,12 +75,18 @@ std::vector<std::vector<double>> profile_lines(const BedProfile<Dim>& profile, l
 }  // namespace
 
 template <int Dim>
-CraterWriter<Dim>::CraterWriter(const CaseConfig& config, const std::filesystem::path& folder)
+CraterWriter<Dim>::CraterWriter(const CaseConfig& config, const std::filesystem::path& folder,
+                                std::optional<std::int64_t> last_step)
     : settings_(*config.output.crater),
-      crater_(folder / "crater.csv", crater_columns(Dim)),
-      profiles_(folder / "crater_profiles.csv", profile_columns(Dim)),
+      crater_(open_table(folder / "crater.csv", crater_columns(Dim), last_step)),
+      profiles_(open_table(folder / "crater_profiles.csv", profile_columns(Dim), last_step)),
       level_(settings_.level) {
   for (const std::string& name : settings_.species) species_.push_back(species_number(config, name));
+  if (!last_step) return;
+  const LastLine last = read_last_line(folder / "crater.csv");
+  last_step_ = last.step;
+  last_time_ = last.time;
+  if (!level_) level_ = last.level;
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
 /// Tables of the crater in a bed.
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -15,8 +16,11 @@ namespace quicksand {
 template <int Dim>
 class CraterWriter {
  public:
+  /// \param last_step  the step that a run goes on from: the tables keep their lines up to it, and the level is theirs;
+  ///                   none: a new run
   /// \pre config.output.crater \throws FileError
-  CraterWriter(const CaseConfig& config, const std::filesystem::path& folder);
+  CraterWriter(const CaseConfig& config, const std::filesystem::path& folder,
+               std::optional<std::int64_t> last_step = {});
 
   /// Adds the flow's crater, if it is not there yet. The first one, of the initial state, settles the level where the
   /// case does not. \throws FileError

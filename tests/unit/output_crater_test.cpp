@@ -50,6 +50,29 @@ TEST_F(CraterWriterTest, WritesWhenDueOnAnyGrid) {
   EXPECT_EQ(profiles.rfind("step,time,x,surface,top\n0,0,0.025,0.1,0.1\n", 0), 0U) << profiles;
 }
 
+TEST_F(CraterWriterTest, GoesOnAfterAnInterruption) {
+  const CaseConfig config = trench("{species: sand, every: 0.1}");
+  {
+    CraterWriter<2> writer(config, folder_);
+    writer.append(at(config, 0, 0));
+    writer.append_when_due(at(config, 5, 0.1));
+  }
+  const std::string before = content(path("crater.csv"));
+  {
+    CraterWriter<2> writer(config, folder_, 5);
+    writer.append_when_due(at(config, 6, 0.15));  // not due
+    writer.append(at(config, 5, 0.1));            // there already
+    EXPECT_EQ(content(path("crater.csv")), before);
+    CaseConfig lower = config;
+    std::get<BoxShape>(lower.initial.front().shape).to[2] = 0.3;
+    writer.append_when_due(at(lower, 7, 0.2));
+    EXPECT_NE(content(path("crater.csv")).find("\n7,0.2,0.4,"), std::string::npos);  // the level of the start
+  }
+  CraterWriter<2> again(config, folder_, 5);
+  EXPECT_EQ(content(path("crater.csv")), before);
+  EXPECT_EQ(lines(content(path("crater_profiles.csv"))), 1U + 8 + 8);
+}
+
 TEST_F(CraterWriterTest, TakesTheLevelOfTheCase) {
   const CaseConfig config = trench("{species: sand, level: 0.5}");
   CraterWriter<2> writer(config, folder_);
