@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/grid_sequence.hpp"
+#include "app/initial_bubbles.hpp"
 
 namespace quicksand {
 
@@ -53,12 +54,12 @@ void fill_shapes(const CaseConfig& config, Flow<Dim>& flow) {
   }
 }
 
-/// Cuts the bubbles out of the liquid and marks their cells.
+/// Cuts the bubbles, those of charges too, out of the liquid and marks their cells.
 template <int Dim>
 void cut_bubbles(const CaseConfig& config, Flow<Dim>& flow) {
   const Grid<Dim>& grid = flow.domain().grid;
   State<Dim>& state = flow.state();
-  for (const InitialBubble& bubble : config.bubbles) {
+  for (const InitialBubble& bubble : initial_bubbles(config)) {
     const Shape ball = SphereShape{bubble.center, bubble.radius};
     const int id = ++state.gas.last_id;
     state.gas.bubbles.push_back({.id = id, .exponent = bubble.adiabatic_exponent, .pressure = bubble.pressure});

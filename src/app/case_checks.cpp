@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/bubble_checks.hpp"
 #include "app/case_codec.hpp"
 #include "app/crater_codec.hpp"
 #include "app/grid_checks.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
-#include <limits>
 
 #include "app/crater_codec.hpp"
 #include "core/config_variant.hpp"
@@ -14,7 +13,6 @@ namespace {
 
 namespace dim = dimension;
 constexpr Range fraction_of_one{0, 1, true};
-constexpr Range above_one{1, std::numeric_limits<double>::infinity(), true};
 
 Codec<UnitSystem> units_codec() { return choice<UnitSystem>({{"SI", UnitSystem::si}, {"none", UnitSystem::none}}); }
 
@@ -212,24 +210,6 @@ Codec<InitialFill> fill_codec() {
   });
 }
 
-Codec<InitialBubble> bubble_codec() {
-  return object<InitialBubble>({
-      required("center", &InitialBubble::center, vector_of(dim::length), "middle"),
-      required("radius", &InitialBubble::radius, quantity(dim::length, positive), "radius"),
-      required("pressure", &InitialBubble::pressure, quantity(dim::pressure, positive), "pressure at the start"),
-      required("adiabatic_exponent", &InitialBubble::adiabatic_exponent, quantity(dim::none, above_one),
-               "gamma of P V^gamma = constant"),
-  });
-}
-
-Codec<TrappedGas> trapped_gas_codec() {
-  return object<TrappedGas>({
-      defaulted("adiabatic", &TrappedGas::adiabatic, flag(),
-                "whether ambient gas that liquid encloses becomes a bubble; else it keeps the ambient pressure"),
-      defaulted("adiabatic_exponent", &TrappedGas::exponent, quantity(dim::none, above_one), "gamma of ambient gas"),
-  });
-}
-
 Codec<TimeSettings> time_codec() {
   const auto duration = quantity(dim::time, positive);
   return object<TimeSettings>({
@@ -292,6 +272,8 @@ Codec<CaseConfig> make_case_codec() {
       required("initial", &CaseConfig::initial, list_of(fill_codec(), 1), "what is filled at the start"),
       defaulted("bubbles", &CaseConfig::bubbles, list_of(bubble_codec()),
                 "gas with a pressure of its own, cut out of the liquid"),
+      defaulted("charges", &CaseConfig::charges, list_of(charge_codec()),
+                "explosive charges, which start as bubbles; units: SI only"),
       defaulted("trapped_gas", &CaseConfig::trapped_gas, trapped_gas_codec(), "ambient gas that liquid encloses"),
       required("time", &CaseConfig::time, time_codec(), "end of the run and time step"),
       defaulted("stages", &CaseConfig::stages, list_of(stage_codec()),

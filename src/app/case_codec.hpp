@@ -17,6 +17,11 @@ Codec<GridConfig> grid_codec();
 Codec<StageConfig> stage_codec();
 Codec<RegridConfig> regrid_codec();
 
+/// How a bubble, a charge and the treatment of trapped gas are read, written and described.
+Codec<InitialBubble> bubble_codec();
+Codec<InitialCharge> charge_codec();
+Codec<TrappedGas> trapped_gas_codec();
+
 /// The values that the rest of the file depends on, read ahead of it (problems are noted in the full reading).
 UnitSystem peek_units(const ConfigNode& root);
 int peek_dimension(const ConfigNode& root);

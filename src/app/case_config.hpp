@@ -86,6 +86,16 @@ struct InitialBubble {
   double adiabatic_exponent = 1.4;
 };
 
+/// An explosive charge, which starts as a bubble: see Charge, whose constants it has.
+struct InitialCharge {
+  Vec<3> center;
+  double mass = 0;                     ///< of the whole charge, wherever planes of symmetry cut it
+  double radius_constant = 0;          ///< J
+  double minimum_radius_constant = 0;  ///< q
+  double adiabatic_exponent = 1.4;
+  std::optional<double> thickness;  ///< across the plane, in planar cases: M = mass / thickness
+};
+
 /// End of the run and size of its steps: either fixed, or by the CFL number with an upper limit.
 struct TimeSettings {
   double end = 0;
@@ -127,6 +137,7 @@ struct CaseConfig {
   std::vector<Species> species;
   std::vector<InitialFill> initial;
   std::vector<InitialBubble> bubbles;
+  std::vector<InitialCharge> charges;
   TrappedGas trapped_gas;
   TimeSettings time;
   std::vector<StageConfig> stages;  ///< in order of time; what follows them runs on `grid`

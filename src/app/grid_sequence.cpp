@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "app/adapted_axis.hpp"
+#include "app/initial_bubbles.hpp"
 
 namespace quicksand {
 
@@ -33,6 +34,9 @@ Region<Dim> around(const std::vector<Region<Dim>>& regions) {
   return all;
 }
 
+/// Number of bubbles at the start.
+std::size_t count_bubbles(const CaseConfig& config) { return config.bubbles.size() + config.charges.size(); }
+
 /// Where the bubbles of the start are by the case.
 template <int Dim>
 std::vector<Region<Dim>> initial_regions(const CaseConfig& config) {
@@ -40,7 +44,7 @@ std::vector<Region<Dim>> initial_regions(const CaseConfig& config) {
   const Vec<Dim> domain_low = in_axes<Dim>(domain.low);
   const Vec<Dim> domain_high = in_axes<Dim>(domain.high);
   std::vector<Region<Dim>> regions;
-  for (const InitialBubble& bubble : config.bubbles) {
+  for (const InitialBubble& bubble : initial_bubbles(config)) {
     const Vec<Dim> center = in_axes<Dim>(bubble.center);
     Region<Dim> region;
     for (int d = 0; d < Dim; ++d) {
@@ -93,7 +97,7 @@ double widest(const std::vector<double>& faces, double low, double high) {
 
 template <int Dim>
 GridSequence<Dim>::GridSequence(const CaseConfig& config)
-    : config_(config), sides_(make_sides<Dim>(config)), following_(config.regrid && !config.bubbles.empty()) {}
+    : config_(config), sides_(make_sides<Dim>(config)), following_(config.regrid && count_bubbles(config) > 0) {}
 
 template <int Dim>
 GridConfig GridSequence<Dim>::base() const {
@@ -170,7 +174,7 @@ std::optional<Domain<Dim>> GridSequence<Dim>::next(const Flow<Dim>& flow) {
     changed = true;
   }
   if (!following_) return changed ? std::optional(make({})) : std::nullopt;
-  const std::vector<Region<Dim>> bubbles = present_regions(flow, config_.bubbles.size());
+  const std::vector<Region<Dim>> bubbles = present_regions(flow, count_bubbles(config_));
   if (bubbles.empty()) following_ = false;
   if (!changed && following_ && !outgrown(bubbles)) return std::nullopt;
   return make(bubbles);

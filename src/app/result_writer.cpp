@@ -60,7 +60,8 @@ ResultWriter<Dim>::ResultWriter(const CaseConfig& config, std::filesystem::path 
     : config_(config), folder_(std::move(folder)), series_(folder_) {
   write_text_file(folder_ / "case.yaml", to_yaml(config));
   if (config.output.history) history_.emplace(folder_ / "history.csv", history_columns(config));
-  if (config.output.history && (!config.bubbles.empty() || config.trapped_gas.adiabatic)) bubbles_.emplace(folder_);
+  const bool bubbles = !config.bubbles.empty() || !config.charges.empty() || config.trapped_gas.adiabatic;
+  if (config.output.history && bubbles) bubbles_.emplace(folder_);
   if (config.output.crater) crater_.emplace(config, folder_);
 }
 

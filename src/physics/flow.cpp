@@ -206,7 +206,8 @@ StepReport Flow<Dim>::step(double dt) {
   const ConvectionInput<Dim> in{state_.phi, total_, rho_, state_.u, state_.acceleration, liquid_, interfaces_};
   predict_velocities(domain_, in, dt, convection_, face_velocities_);
   clock(Phase::convection);
-  report.mac = project_face_velocities(domain_, rho_, liquid_, par.linear, mac_, face_velocities_.mac);
+  find_voids(domain_, total_, liquid_, dt, mac_.inflow);
+  report.mac = project_face_velocities(domain_, rho_, liquid_, mac_.inflow, par.linear, mac_, face_velocities_.mac);
   clock(Phase::mac_projection);
   split_velocities(domain_, in, convection_, face_velocities_);
   convect(domain_, par.species, in, dt, face_velocities_, convection_, next_.phi, momentum_tilde_, escaped);
