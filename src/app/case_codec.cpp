@@ -4,6 +4,7 @@
 #include <charconv>
 #include <iterator>
 
+#include "app/crater_codec.hpp"
 #include "core/config_variant.hpp"
 
 namespace quicksand {
@@ -253,6 +254,7 @@ Codec<OutputSettings> output_codec() {
       defaulted("directory", &OutputSettings::directory, text(), "folder of the results"),
       defaulted("fields", &OutputSettings::fields, schedule, "when fields are written; neither key: start and end"),
       defaulted("history", &OutputSettings::history, flag(), "whether history.csv is written"),
+      maybe("crater", &OutputSettings::crater, crater_codec(), "the crater in a bed, measured"),
   });
 }
 

@@ -113,10 +113,18 @@ struct OutputSchedule {
   std::vector<double> times;
 };
 
+/// What is measured of the crater in a bed.
+struct CraterSettings {
+  std::vector<std::string> species;  ///< what the bed is made of
+  std::optional<double> level;       ///< z of the undisturbed bed; the initial bed's median height where absent
+  std::optional<double> every;       ///< interval; whenever fields are written where absent
+};
+
 struct OutputSettings {
   std::string directory = "results";
   OutputSchedule fields;
   bool history = true;
+  std::optional<CraterSettings> crater;
 };
 
 struct CaseConfig {
