@@ -123,10 +123,14 @@ InitialState<Dim> fill_cells(const CaseConfig& config) {
   return state;
 }
 
-std::string cells_text(const GridConfig& grid) {
+std::string cells_text(const std::vector<long>& cells) {
   std::string text;
-  for (const long n : axis_cells(grid)) text += (text.empty() ? "" : " x ") + std::to_string(n);
-  return text + " = " + std::to_string(static_cast<long>(count_cells(grid)));
+  long product = 1;
+  for (const long n : cells) {
+    text += (text.empty() ? "" : " x ") + std::to_string(n);
+    product *= n;
+  }
+  return text + " = " + std::to_string(product);
 }
 
 double smallest_width(const GridConfig& grid) {
@@ -141,11 +145,17 @@ double smallest_width(const GridConfig& grid) {
 
 /// Estimate of the megabytes that a run needs.
 double needed_memory(const CaseConfig& config) {
-  double cells = 1;
-  for (const long n : axis_cells(config.grid)) cells *= static_cast<double>(n + 2 * ghosts);
+  double most_cells = 0;
+  const auto count = [&](const GridConfig& grid) {
+    double cells = 1;
+    for (const long n : axis_cells(grid)) cells *= static_cast<double>(n + 2 * ghosts);
+    most_cells = std::max(most_cells, cells);
+  };
+  count(config.grid);
+  for (const StageConfig& stage : config.stages) count(grid_of(config, stage));
   const double fields = base_fields + fields_per_axis * config.grid.dimension +
                         fields_per_species * static_cast<double>(config.species.size());
-  return fields * sizeof(double) * cells / 1e6;
+  return fields * sizeof(double) * most_cells / 1e6;
 }
 
 double machine_memory() {
@@ -198,6 +208,23 @@ std::string time_step_text(const CaseConfig& config) {
   return text + "; first " + brief(first_step<Dim>(config));
 }
 
+/// A line per stage, and one for the first grid where it is made to fit the bubbles.
+template <int Dim>
+std::string grids_text(const CaseConfig& config) {
+  std::ostringstream out;
+  if (config.regrid && fits(config)) {
+    const Grid<Dim> grid = GridSequence<Dim>(config).first().grid;
+    out << "first grid     " << cells_text({std::begin(grid.global_cells().v), std::end(grid.global_cells().v)})
+        << ", smallest cell " << brief(grid.smallest_width()) << "\n";
+  }
+  for (const StageConfig& stage : config.stages) {
+    const GridConfig grid = grid_of(config, stage);
+    out << "stage          until " << shortest(stage.until) << ": " << cells_text(axis_cells(grid))
+        << ", smallest cell " << brief(smallest_width(grid)) << "\n";
+  }
+  return out.str();
+}
+
 template <int Dim>
 std::string report(const CaseConfig& config) {
   std::ostringstream out;
@@ -205,9 +232,9 @@ std::string report(const CaseConfig& config) {
       << "units          " << (config.units == UnitSystem::si ? "SI" : "none") << "\n"
       << "dimension      " << Dim << "\n"
       << "geometry       " << geometry_name(geometry_of(config.grid)) << "\n"
-      << "cells          " << cells_text(config.grid) << "\n"
+      << "cells          " << cells_text(axis_cells(config.grid)) << "\n"
       << "smallest cell  " << brief(smallest_width(config.grid)) << "\n"
-      << "memory         about " << brief(needed_memory(config)) << " MB\n"
+      << grids_text<Dim>(config) << "memory         about " << brief(needed_memory(config)) << " MB\n"
       << species_text<Dim>(config) << bubbles_text(config) << charges_text(config) << "end of run     "
       << shortest(config.time.end) << "\n"
       << "time step      " << time_step_text<Dim>(config) << "\n"

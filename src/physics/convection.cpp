@@ -9,6 +9,9 @@ namespace quicksand {
 
 namespace {
 
+/// Momentum of less mass than this, relative to a full cell's, is what rounding left of a cell that emptied.
+constexpr double rounded_off = 1e-14;
+
 /// Cells with less liquid move ballistically: no slopes, no acceleration in the predictor.
 constexpr double ballistic_fraction = 0.5;
 
@@ -257,6 +260,15 @@ void convect(const Domain<Dim>& domain, const std::vector<Species>& species, con
             dt * (momentum_flux(low_face(c)) - momentum_flux(low_face(c + grid.step(d)))) / grid.volume(c);
       });
     }
+    for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
+      double mass = 0;
+      double full = 0;
+      for (std::size_t i = 0; i < species.size(); ++i) {
+        mass += species[i].density * phi_tilde[i][c];
+        full = std::max(full, species[i].density);
+      }
+      momentum_tilde[e][c] = mass > rounded_off * full ? momentum_tilde[e][c] : 0.0;
+    });
   }
 }
 

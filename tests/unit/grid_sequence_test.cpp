@@ -113,12 +113,12 @@ TEST(GridSequence, FollowsABubbleFromItsFirstSizeToTheGivenGrid) {
   const double liquid = species_volume(flow.domain().grid, flow.state().phi[0]);
   TimeControl control(config.time, config.output.fields);
   double width = flow.domain().grid.smallest_width();
-  while (flow.state().time < 8) {
+  while (flow.state().time < 5) {
     if (auto domain = grids.next(flow)) {
       RemapReport report;
       const double energy = kinetic_energy(flow.domain().grid, flow.density(), flow.state().u);
       flow = remap(flow, std::move(*domain), report);
-      EXPECT_GT(flow.domain().grid.smallest_width(), 2 * width);
+      EXPECT_GT(flow.domain().grid.smallest_width(), 1.2 * width);
       width = flow.domain().grid.smallest_width();
       EXPECT_LE(kinetic_energy(flow.domain().grid, flow.density(), flow.state().u), energy * (1 + 1e-12));
     }
@@ -131,8 +131,7 @@ TEST(GridSequence, FollowsABubbleFromItsFirstSizeToTheGivenGrid) {
   EXPECT_NEAR(species_volume(flow.domain().grid, flow.state().phi[0]), liquid, 1e-10 * liquid);
   const double quarter = std::acos(-1.0) / 4;
   const double radius = std::sqrt(flow.state().gas.bubbles.front().volume / quarter);
-  RecordProperty("radius", std::to_string(radius));
-  EXPECT_GT(radius, 5);
+  EXPECT_GT(radius, 4);
 }
 
 }  // namespace
