@@ -85,14 +85,8 @@ bool has_rigid_plasticity(const Species& s) { return rheology(s.law).rigid_yield
 template <int Dim>
 DiffusionWork<Dim>::DiffusionWork(const Domain<Dim>& domain, const std::vector<Species>& species)
     : elements(domain),
-      potential(domain.layout()),
-      gap(domain.layout()),
-      matrix(domain.layout()),
-      mass(domain.layout()),
-      gradient(domain.layout()),
-      trial_gradient(domain.layout()),
-      update(domain.layout()),
-      trial(domain.layout()) {
+      matrix(domain.layout()) {
+  acquire(domain.layout());
   if (std::any_of(species.begin(), species.end(), has_smooth_plasticity)) {
     stress = Field<Node, PointStresses<Dim>>(domain.layout());
   }
@@ -103,8 +97,25 @@ DiffusionWork<Dim>::DiffusionWork(const Domain<Dim>& domain, const std::vector<S
 }
 
 template <int Dim>
+void DiffusionWork<Dim>::acquire(const Layout<Dim>& layout) {
+  for (NodeField* field : {&potential, &gap}) {
+    if (field->size() == 0) *field = NodeField(layout);
+  }
+  for (CellVectors<Dim>* vectors : {&mass, &gradient, &trial_gradient, &update, &trial}) {
+    if ((*vectors)[0].size() == 0) *vectors = CellVectors<Dim>(layout);
+  }
+}
+
+template <int Dim>
+void DiffusionWork<Dim>::release() {
+  for (NodeField* field : {&potential, &gap}) *field = {};
+  for (CellVectors<Dim>* vectors : {&mass, &gradient, &trial_gradient, &update, &trial}) *vectors = {};
+}
+
+template <int Dim>
 DiffusionReport diffuse(const Domain<Dim>& domain, const CellField& rho, const CellVectors<Dim>& u_hat, double dt,
                         const DiffusionOptions& options, DiffusionWork<Dim>& work, CellVectors<Dim>& u) {
+  work.acquire(domain.layout());
   mark_participants(domain, rho, work);
   for (int d = 0; d < Dim; ++d) {
     for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) {
@@ -124,7 +135,9 @@ DiffusionReport diffuse(const Domain<Dim>& domain, const CellField& rho, const C
   } else {
     problem.target = options.tolerance * hat.norm;
     problem.reached = [&](const ViscousProgress& now) { return now.norm <= problem.target; };
-    report.converged = iterate(problem, options.iteration, options.max_iterations, u, report);
+    const bool linear = work.stress.size() == 0;
+    report.converged = (linear && solve_linear_stress(problem, u, report)) ||
+                       iterate(problem, options.iteration, options.max_iterations, u, report);
     report.gap = 0.5 * std::pow(gradient_norm(domain, work, work.gradient), 2);
   }
   const double energy = stress_energy(problem, u);

@@ -9,15 +9,12 @@
 
 namespace quicksand {
 
-/// Work arrays and the potential of the last step, the next one's first guess.
+/// The potential of the last step, the next one's first guess.
 template <int Dim>
 struct MacProjectionWork {
-  StencilMatrix<Dim, Cell> matrix;
-  CellField divergence;
   CellField potential;
 
-  explicit MacProjectionWork(const Layout<Dim>& layout)
-      : matrix(layout, Stencil::star), divergence(layout), potential(layout) {}
+  explicit MacProjectionWork(const Layout<Dim>& layout) : potential(layout) {}
 };
 
 /// Solves div(1/rho grad q) = div u_mac in D with q = 0 on the border of D, and corrects u_mac on the faces of D.

@@ -42,6 +42,12 @@ double stress_energy(const ViscousProblem<Dim>& p, const CellVectors<Dim>& u);
 template <int Dim>
 ViscousProgress progress_at(const ViscousProblem<Dim>& p, const CellVectors<Dim>& u);
 
+/// For linear laws: conjugate gradients behind the diagonal, without a matrix. Quick where viscosity is not stiff, that is
+/// where it couples cells little more strongly than inertia holds them.
+/// \returns false where it is stiff, u as it was, or where the iteration does not converge
+template <int Dim>
+bool solve_linear_stress(const ViscousProblem<Dim>& p, CellVectors<Dim>& u, DiffusionReport& report);
+
 /// Iterates with the given method until p.reached() or the gradient is round-off. Newton's method hands over to
 /// Anderson's when its line search fails.
 /// \param u       guess on entry, the best velocity found on return
