@@ -18,8 +18,8 @@ constexpr int widest_band = 100;
 
 }  // namespace
 
-/// Banded Cholesky factors; unusable where the matrix is not positive definite to round-off. Unknown number = Dim * cell
-/// number + component.
+/// Banded Cholesky factors; unusable where the matrix is not positive definite to round-off. Unknown number = Dim *
+/// cell number + component.
 template <int Dim>
 struct VelocitySolver<Dim>::Factors {
   BandOrder<Dim> order;

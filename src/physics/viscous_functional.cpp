@@ -188,7 +188,8 @@ void assemble_matrix(const Domain<Dim>& domain, const CellVectors<Dim>& u, doubl
       viscosity[q] += weight * rigid.f;
       if (!tangent) continue;
       const StrainRate<Dim>& stress = work.rigid_stress[n].at[q];
-      add_product(e, q, rigid.driver, stress, weight * plastic_coefficient(rigid.f, rigid.slope, rigid.driver, stress), K);
+      add_product(e, q, rigid.driver, stress, weight * plastic_coefficient(rigid.f, rigid.slope, rigid.driver, stress),
+                  K);
     }
     add_viscous(e, viscosity, K);
     scatter(e, K, table, matrix);

@@ -59,8 +59,8 @@ Box<Dim> elements_around(const Grid<Dim>& grid, Box<Dim> cells) {
   return intersect(cells, grid.nodes());
 }
 
-/// Calls body(node, element, rates) for every active element, `rates` the strain rates of velocities u at its points, in
-/// threads over elements.
+/// Calls body(node, element, rates) for every active element, `rates` the strain rates of velocities u at its points,
+/// in threads over elements.
 template <int Dim, class Body>
 void for_each_stress_element(const Domain<Dim>& domain, const CellVectors<Dim>& u, DiffusionWork<Dim>& work,
                              Body&& body) {

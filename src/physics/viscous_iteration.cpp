@@ -22,7 +22,8 @@ constexpr double blurred = 1e-10;
 constexpr double round_off = 1e-12;
 constexpr double negligible = 1e-8;
 
-/// Ratio of a linear system's diagonal to the mass, in the mean, up to which no more than the diagonal is needed before it.
+/// Ratio of a linear system's diagonal to the mass, in the mean, up to which no more than the diagonal is needed before
+/// it.
 constexpr double stiff = 30;
 
 /// Decrease of the functional that would change the velocity by round-off only.
@@ -54,8 +55,8 @@ bool iterate_newton(const ViscousProblem<Dim>& p, int max_iterations, CellVector
     const double seen = now.norm / last_norm;
     const double forcing = k == 0 ? 1e-2 : std::clamp(0.5 * seen * seen, 1e-4, 1e-2);
     const double enough = (linear_laws ? 0.5 : 0.1) * p.target / now.norm;
-    const SolveReport linear = VelocitySolver<Dim>(work.matrix)
-                                   .solve(work.gradient, work.update, std::max(linear_laws ? 0 : forcing, enough));
+    const SolveReport linear =
+        VelocitySolver<Dim>(work.matrix).solve(work.gradient, work.update, std::max(linear_laws ? 0 : forcing, enough));
     report.linear_iterations += linear.iterations;
     ++report.iterations;
     const double descent = dot<Cell>(layout, work.matrix.box(), work.gradient, work.update);
@@ -169,7 +170,8 @@ ViscousProgress progress_at(const ViscousProblem<Dim>& p, const CellVectors<Dim>
 }
 
 template <int Dim>
-bool solve_linear_stress(const ViscousProblem<Dim>& p, CellVectors<Dim>& u, DiffusionReport& report) {
+std::optional<double> solve_linear_stress(const ViscousProblem<Dim>& p, double start, CellVectors<Dim>& u,
+                                          DiffusionReport& report) {
   DiffusionWork<Dim>& work = p.work;
   const Layout<Dim>& layout = p.domain.layout();
   const Box<Dim>& box = work.matrix.box();
@@ -181,12 +183,10 @@ bool solve_linear_stress(const ViscousProblem<Dim>& p, CellVectors<Dim>& u, Diff
     inertia += sum<Cell>(layout, box, [&](Cell c) { return work.mass[d][c]; });
     viscosity += sum<Cell>(layout, box, [&](Cell c) { return work.mass[d][c] > 0 ? diagonal[d][c] : 0.0; });
   }
-  if (viscosity > stiff * inertia) return false;
+  if (viscosity > stiff * inertia) return std::nullopt;
   report.method = "conjugate gradients";
-  if (progress_at(p, u).norm <= p.target) return true;
-  const auto apply = [&](CellVectors<Dim>& v, CellVectors<Dim>& y) {
-    apply_linear_stress(p.domain, v, p.dt, work, y);
-  };
+  if (start <= p.target) return start;
+  const auto apply = [&](CellVectors<Dim>& v, CellVectors<Dim>& y) { apply_linear_stress(p.domain, v, p.dt, work, y); };
   const auto precondition = [&](const CellVectors<Dim>& r, CellVectors<Dim>& z) {
     for (int d = 0; d < Dim; ++d) for_each<Cell>(layout, box, [&](Cell c) { z[d][c] = r[d][c] / diagonal[d][c]; });
   };
@@ -194,10 +194,11 @@ bool solve_linear_stress(const ViscousProblem<Dim>& p, CellVectors<Dim>& u, Diff
   const SolveReport linear = conjugate_gradients<Cell>(
       layout, box, apply, precondition, work.gradient, work.update, {.relative = 0, .absolute = p.target},
       [&](const CellVectors<Dim>& r) { return gradient_norm(p.domain, work, r); });
-  report.iterations = 1;
   report.linear_iterations = linear.iterations;
+  if (!linear.converged) return std::nullopt;
+  report.iterations = 1;
   add_scaled(layout, box, u, -1.0, work.update, u);
-  return progress_at(p, u).norm <= 2 * p.target;
+  return linear.residual * start;
 }
 
 template <int Dim>
@@ -214,11 +215,12 @@ bool iterate(const ViscousProblem<Dim>& p, ViscousIteration method, int max_iter
   return iterate_picard(p, 10 * max_iterations, accelerate, u, report);
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                       \
-  template double gradient_norm(const Domain<Dim>&, const DiffusionWork<Dim>&, const CellVectors<Dim>&); \
-  template double stress_energy(const ViscousProblem<Dim>&, const CellVectors<Dim>&);                    \
-  template ViscousProgress progress_at(const ViscousProblem<Dim>&, const CellVectors<Dim>&);             \
-  template bool solve_linear_stress(const ViscousProblem<Dim>&, CellVectors<Dim>&, DiffusionReport&);       \
+#define QUICKSAND_INSTANTIATE(Dim)                                                                          \
+  template double gradient_norm(const Domain<Dim>&, const DiffusionWork<Dim>&, const CellVectors<Dim>&);    \
+  template double stress_energy(const ViscousProblem<Dim>&, const CellVectors<Dim>&);                       \
+  template ViscousProgress progress_at(const ViscousProblem<Dim>&, const CellVectors<Dim>&);                \
+  template std::optional<double> solve_linear_stress(const ViscousProblem<Dim>&, double, CellVectors<Dim>&, \
+                                                     DiffusionReport&);                                     \
   template bool iterate(const ViscousProblem<Dim>&, ViscousIteration, int, CellVectors<Dim>&, DiffusionReport&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)

@@ -49,9 +49,7 @@ class BandedCholesky {
   /// A matrix of zeros.
   BandedCholesky(int size, int bandwidth);
   /// Adds to the entry at (row, column) and its mirror image, for |row - column| <= bandwidth.
-  void add(int row, int column, double value) {
-    entry(std::min(row, column), std::abs(row - column)) += value;
-  }
+  void add(int row, int column, double value) { entry(std::min(row, column), std::abs(row - column)) += value; }
   /// Replaces the matrix by its factors. Returns false where it is not positive definite to round-off.
   bool factorize();
   /// x <- matrix^-1 x, after factorize().
