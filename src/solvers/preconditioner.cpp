@@ -14,8 +14,16 @@ namespace quicksand {
 
 namespace {
 
-/// Systems whose neighbours' numbers differ by so much at most are factorised.
+/// Systems whose neighbours' numbers differ by so much at most are factorised, and those for which size times
+/// bandwidth^2 is small all the same.
 constexpr int widest_band = 64;
+constexpr double cheap_factors = 1e7;
+
+template <int Dim>
+bool suits_factors(const BandOrder<Dim>& order) {
+  return order.bandwidth() <= widest_band ||
+         1.0 * order.size() * order.bandwidth() * order.bandwidth() <= cheap_factors;
+}
 
 /// Aspect ratio up to which relaxation by points suits a 9-point matrix.
 constexpr double largest_point_aspect = 1.6;
@@ -164,7 +172,7 @@ std::string_view name(Method method) {
 /// cost.
 template <int Dim, class At>
 Method choose_method(const StencilMatrix<Dim, At>& matrix) {
-  if (BandOrder<Dim>(matrix.layout, matrix.box).bandwidth() <= widest_band) return Method::direct;
+  if (suits_factors(BandOrder<Dim>(matrix.layout, matrix.box))) return Method::direct;
   const bool star = matrix.stencil == Stencil::star;
   const Anisotropy shape = anisotropy(star ? matrix : star_part(matrix));
   if (shape.grading > largest_pfmg_grading<Dim>) return Method::smg;
