@@ -69,7 +69,11 @@ struct VelocitySolver<Dim>::Cycles {
 
   explicit Cycles(const VelocityMatrix<Dim>& matrix) {
     of_component.reserve(static_cast<std::size_t>(Dim));
-    for (int d = 0; d < Dim; ++d) of_component.emplace_back(matrix.component(d), MultigridKind::pfmg);
+    const bool whole = Dim == 2 || pfmg_suits_27_points();
+    for (int d = 0; d < Dim; ++d) {
+      const StencilMatrix<Dim, Cell>& block = matrix.component(d);
+      of_component.emplace_back(whole ? block : star_part(block), MultigridKind::pfmg);
+    }
   }
 };
 
