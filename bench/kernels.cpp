@@ -180,6 +180,7 @@ void register_kernels(int n) {
 
 /// Arguments after those of Google Benchmark: threads, then pairs of dimension and cells along an axis.
 int main(int argc, char** argv) {
+  quicksand::start_with_patient_threads(argv);
   benchmark::Initialize(&argc, argv);
   if (argc < 2) return 1;
   quicksand::set_threads(std::atoi(argv[1]));
