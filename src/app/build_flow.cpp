@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "app/grid_sequence.hpp"
+#include "app/initial_bubbles.hpp"
+
 namespace quicksand {
 
 namespace {
@@ -51,12 +54,12 @@ void fill_shapes(const CaseConfig& config, Flow<Dim>& flow) {
   }
 }
 
-/// Cuts the bubbles out of the liquid and marks their cells.
+/// Cuts the bubbles, those of charges too, out of the liquid and marks their cells.
 template <int Dim>
 void cut_bubbles(const CaseConfig& config, Flow<Dim>& flow) {
   const Grid<Dim>& grid = flow.domain().grid;
   State<Dim>& state = flow.state();
-  for (const InitialBubble& bubble : config.bubbles) {
+  for (const InitialBubble& bubble : initial_bubbles(config)) {
     const Shape ball = SphereShape{bubble.center, bubble.radius};
     const int id = ++state.gas.last_id;
     state.gas.bubbles.push_back({.id = id, .exponent = bubble.adiabatic_exponent, .pressure = bubble.pressure});
@@ -71,14 +74,21 @@ void cut_bubbles(const CaseConfig& config, Flow<Dim>& flow) {
 }  // namespace
 
 template <int Dim>
-Flow<Dim> build_flow(const CaseConfig& config) {
-  Flow<Dim> flow(Domain<Dim>(make_grid<Dim>(config.grid), make_sides<Dim>(config)), parameters_of<Dim>(config));
+Flow<Dim> build_flow(const CaseConfig& config, Domain<Dim> domain) {
+  Flow<Dim> flow(std::move(domain), parameters_of<Dim>(config));
   fill_shapes(config, flow);
   cut_bubbles(config, flow);
   flow.initialize();
   return flow;
 }
 
+template <int Dim>
+Flow<Dim> build_flow(const CaseConfig& config) {
+  return build_flow<Dim>(config, GridSequence<Dim>(config).first());
+}
+
+template Flow<2> build_flow<2>(const CaseConfig&, Domain<2>);
+template Flow<3> build_flow<3>(const CaseConfig&, Domain<3>);
 template Flow<2> build_flow<2>(const CaseConfig&);
 template Flow<3> build_flow<3>(const CaseConfig&);
 

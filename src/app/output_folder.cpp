@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 /// Whether a run writes files of that name.
 bool is_result(const fs::path& file) {
   const std::string name = file.filename().string();
-  for (const char* table : {"case.yaml", "summary.json", "history.csv", "bubbles.csv", "events.csv", "fields.xdmf"}) {
+  for (const char* table : {"case.yaml", "summary.json", "history.csv", "bubbles.csv", "events.csv", "crater.csv",
+                            "crater_profiles.csv", "fields.xdmf"}) {
     if (name == table) return true;
   }
   return file.extension() == ".h5" &&

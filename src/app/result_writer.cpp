@@ -60,7 +60,9 @@ ResultWriter<Dim>::ResultWriter(const CaseConfig& config, std::filesystem::path 
     : config_(config), folder_(std::move(folder)), series_(folder_) {
   write_text_file(folder_ / "case.yaml", to_yaml(config));
   if (config.output.history) history_.emplace(folder_ / "history.csv", history_columns(config));
-  if (config.output.history && (!config.bubbles.empty() || config.trapped_gas.adiabatic)) bubbles_.emplace(folder_);
+  const bool bubbles = !config.bubbles.empty() || !config.charges.empty() || config.trapped_gas.adiabatic;
+  if (config.output.history && bubbles) bubbles_.emplace(folder_);
+  if (config.output.crater) crater_.emplace(config, folder_);
 }
 
 template <int Dim>
@@ -95,6 +97,7 @@ std::filesystem::path ResultWriter<Dim>::write_fields(const Flow<Dim>& flow) {
   std::filesystem::path file = folder_ / fields_file_name(flow.state().step);
   quicksand::write_fields(file, snapshot(flow));
   series_.add(file);
+  if (crater_) crater_->append(flow);
   return file;
 }
 
@@ -108,6 +111,7 @@ std::filesystem::path ResultWriter<Dim>::write_failed_state(const Flow<Dim>& flo
 template <int Dim>
 void ResultWriter<Dim>::append_history(const Flow<Dim>& flow, const Diagnostics& diagnostics,
                                        const StepReport& report) {
+  if (crater_) crater_->append_when_due(flow);
   if (!history_) return;
   const State<Dim>& state = flow.state();
   std::vector<double> line = {static_cast<double>(state.step), state.time, state.dt};

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "app/build_flow.hpp"
+#include "app/grid_sequence.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/result_writer.hpp"
@@ -13,6 +14,7 @@
 #include "core/errors.hpp"
 #include "core/threads.hpp"
 #include "physics/energy.hpp"
+#include "physics/remap.hpp"
 #include "physics/time_step.hpp"
 
 namespace quicksand {
@@ -51,12 +53,14 @@ double energy_scale(const Flow<Dim>& flow) {
 template <int Dim>
 struct Run {
   const CaseConfig& config;
+  GridSequence<Dim> grids;
   ResultWriter<Dim> writer;
   TimeControl control;
   SteadyState steady;
   bool is_steady = false;
   RunStatistics statistics;
   Progress progress;
+  std::vector<GasEvent> remap_events{};  ///< since the last step
 };
 
 /// Advances by at most dt: a failed step is tried again with half of it. \throws NumericalError when all tries fail
@@ -89,7 +93,9 @@ template <int Dim>
 bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
   const State<Dim>& state = flow.state();
   const double stable = stable_step(flow, run.control.cfl());
-  const StepReport report = advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable), run);
+  StepReport report = advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable), run);
+  report.gas.insert(report.gas.begin(), run.remap_events.begin(), run.remap_events.end());
+  run.remap_events.clear();
   if (run.control.beyond_limit(state.dt, stable) && run.statistics.count_step_beyond_cfl() == 1) {
     run.progress.say("warning: step " + std::to_string(state.step) + ": dt " + number_text(state.dt) +
                      " exceeds the CFL limit of convection, " + number_text(stable) +
@@ -107,6 +113,34 @@ bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
   return due;
 }
 
+/// Takes note of the grid that the flow is on now.
+template <int Dim>
+void begin_grid(const Flow<Dim>& flow, Run<Dim>& run) {
+  const Index<Dim>& cells = flow.domain().grid.global_cells();
+  std::string text;
+  long count = 1;
+  for (int d = 0; d < Dim; ++d) {
+    text += (d > 0 ? " x " : "") + std::to_string(cells[d]);
+    count *= cells[d];
+  }
+  run.statistics.begin_grid(text, count, flow.state().time);
+  run.progress.begin_grid(count);
+  if (run.grids.number() == 1) return;
+  run.progress.say("grid " + std::to_string(run.grids.number()) + " at t = " + number_text(flow.state().time) + ": " +
+                   text + " cells, the smallest " + number_text(flow.domain().grid.smallest_width()));
+}
+
+/// Moves the flow to the next grid when its time has come.
+template <int Dim>
+void change_grid(Flow<Dim>& flow, Run<Dim>& run) {
+  std::optional<Domain<Dim>> domain = run.grids.next(flow);
+  if (!domain) return;
+  RemapReport report;
+  flow = remap(flow, std::move(*domain), report);
+  run.remap_events = report.gas;
+  begin_grid(flow, run);
+}
+
 template <int Dim>
 bool is_over(const Flow<Dim>& flow, const Run<Dim>& run) {
   return run.is_steady || run.control.finished(flow.state().time);
@@ -115,14 +149,18 @@ bool is_over(const Flow<Dim>& flow, const Run<Dim>& run) {
 /// Takes all steps, or as many as the user lets it. \return whether the end was reached
 template <int Dim>
 bool march(Run<Dim>& run) {
-  Flow<Dim> flow = build_flow<Dim>(run.config);
+  Flow<Dim> flow = build_flow<Dim>(run.config, run.grids.first());
+  begin_grid(flow, run);
   run.statistics.start(volumes_with_escaped(flow), energy_scale(flow));
   run.control.output_due(0);
   write_fields(flow, run);
   run.writer.append_history(flow, diagnose(flow), StepReport{});
   bool written = true;
   try {
-    while (!is_over(flow, run) && interrupt_signal() == 0) written = take_step(flow, run);
+    while (!is_over(flow, run) && interrupt_signal() == 0) {
+      change_grid(flow, run);
+      written = take_step(flow, run);
+    }
   } catch (const NumericalError& error) {
     const std::filesystem::path file = run.writer.write_failed_state(flow);
     throw NumericalError("step " + std::to_string(flow.state().step + 1) + " at time " +
@@ -152,16 +190,18 @@ std::string steadiness_text(const Run<Dim>& run) {
 template <int Dim>
 int run_in(const CaseConfig& config, const RunOptions& options) {
   const std::string& folder = config.output.directory;
-  const long cells = static_cast<long>(count_cells(config.grid));
   std::vector<std::string> species;
   for (const Species& s : config.species) species.push_back(s.name);
+  std::vector<double> stage_ends;
+  for (const StageConfig& stage : config.stages) stage_ends.push_back(stage.until);
   Run<Dim> run{config,
+               GridSequence<Dim>(config),
                ResultWriter<Dim>(config, folder),
-               TimeControl(config.time, config.output.fields),
+               TimeControl(config.time, config.output.fields, stage_ends),
                SteadyState(config.time.until_steady),
                false,
-               RunStatistics(species, cells),
-               Progress(config.time.end, cells, options.quiet)};
+               RunStatistics(species),
+               Progress(config.time.end, options.quiet)};
   bool finished = false;
   try {
     finished = march(run);

@@ -122,6 +122,17 @@ void Flow<Dim>::initialize() {
 }
 
 template <int Dim>
+void Flow<Dim>::resume(std::vector<double> escaped) {
+  escaped_ = std::move(escaped);
+  refresh();
+  if (has_bubbles(gas_parameters(), state_.gas)) {
+    label_gas(domain_, total_, parameters_.liquid_threshold, state_.gas.region, gas_labels_);
+  }
+  find_elements(state_, total_, interfaces_, elements_);
+  mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
+}
+
+template <int Dim>
 StepReport Flow<Dim>::advance(double dt) {
   try {
     return step(dt);
@@ -198,7 +209,8 @@ StepReport Flow<Dim>::step(double dt) {
     FaceVelocities<Dim> velocities(domain_.layout());
     predict_velocities(domain_, in, dt, work, velocities);
     clock(Phase::convection);
-    report.mac = project_face_velocities(domain_, rho_, liquid_, par.linear, mac_, velocities.mac);
+    find_voids(domain_, total_, liquid_, dt, mac_.inflow);
+    report.mac = project_face_velocities(domain_, rho_, liquid_, mac_.inflow, par.linear, mac_, velocities.mac);
     clock(Phase::mac_projection);
     split_velocities(domain_, in, work, velocities);
     convect(domain_, par.species, in, dt, velocities, work, next_.phi, momentum_tilde_, escaped);

@@ -84,6 +84,13 @@ const Mistake value_mistakes[] = {
     {"x_max: no_slip", "x_max: {inflow: {fill: sand}}", "10:19", "boundaries.x_max.inflow.velocity",
      "is required but missing"},
     {"x_max: no_slip", "x_max: {slip: 1}", "10:10", "boundaries.x_max", "{inflow: {velocity: VELOCITY}}"},
+    {"fields: {every: 0.1}", "crater: {species: snad}", "28:21", "output.crater.species", "did you mean 'sand'?"},
+    {"fields: {every: 0.1}", "crater: {species: sand, level: 2}", "28:34", "output.crater.level",
+     "must lie within the grid, from z = 0 to 1.5, not at 2"},
+    {"fields: {every: 0.1}", "crater: {species: [sand, sand]}", "28:28", "output.crater.species[1]",
+     "in the list already"},
+    {"fields: {every: 0.1}", "crater: {species: []}", "28:21", "output.crater.species", "needs at least 1 item"},
+    {"fields: {every: 0.1}", "crater: {level: 1}", "28:11", "output.crater.species", "is required but missing"},
     {"end: 4.0", "end: 4.0, until_steady: 0", "25:32", "time.until_steady", "must be greater than 0"},
     {"  x_max: no_slip\n", "", "9:3", "boundaries.x_max", "is required but missing"},
     {"gravity: 1.0", "gravity: [1, 2]", "13:10", "gravity", "must point along z"},
@@ -192,7 +199,7 @@ TEST(ConfigErrors, UnitsMustFitTheQuantity) {
   const std::string si = with("units: none\n", "");
   EXPECT_NE(error_of(si, {"gravity=3 kg"}).find("acceleration"), std::string::npos);
   EXPECT_NE(error_of(si, {"gravity=3 kg"}).find("'kg' is a mass"), std::string::npos);
-  EXPECT_NE(error_of(si, {"grid.x.to=3 parsec"}).find("unknown unit 'parsec'"), std::string::npos);
+  EXPECT_NE(error_of(si, {"grid.x.to=3 parsek"}).find("unknown unit 'parsek'"), std::string::npos);
   EXPECT_NE(error_of(si, {"species.0.concentration={yield_exponent: 1 m}"}).find("plain number"), std::string::npos);
 }
 
