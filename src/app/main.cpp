@@ -6,10 +6,12 @@
 
 #include "app/command_line.hpp"
 #include "core/errors.hpp"
+#include "core/threads.hpp"
 
 /// Runs the command line; the only place where failures become exit codes.
 int main(int argc, char** argv) {
   using namespace quicksand;
+  start_with_patient_threads(argv);
   const auto fail = [](const char* message, int code) {
     std::cerr << message << '\n';
     return code;

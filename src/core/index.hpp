@@ -40,6 +40,10 @@ struct Index {
   int v[Dim] = {};
   constexpr int& operator[](int d) { return v[d]; }
   constexpr int operator[](int d) const { return v[d]; }
+  friend constexpr Index operator+(Index a, const Index& b) {
+    for (int d = 0; d < Dim; ++d) a[d] += b[d];
+    return a;
+  }
   friend constexpr bool operator==(const Index&, const Index&) = default;
 };
 

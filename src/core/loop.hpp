@@ -33,12 +33,15 @@ struct Rows {
   }
   /// Flat number of the first point of row r.
   std::ptrdiff_t start(std::ptrdiff_t r) const {
+    // Short divisions, and none in the plane: they would cost as much as a short row.
     Index<Dim> i = box.lo;
-    for (int d = 1; d < Dim; ++d) {
-      const int extent = std::max(box.extent(d), 1);
-      i[d] += static_cast<int>(r % extent);
-      r /= extent;
+    auto rest = static_cast<unsigned>(r);
+    for (int d = 1; d < Dim - 1; ++d) {
+      const auto extent = static_cast<unsigned>(std::max(box.extent(d), 1));
+      i[d] += static_cast<int>(rest % extent);
+      rest /= extent;
     }
+    i[Dim - 1] += static_cast<int>(rest);
     return layout.flat(i);
   }
   bool worth_threads() const { return count * length >= detail::smallest_threaded_loop; }

@@ -1,8 +1,24 @@
 #include "core/threads.hpp"
 
 #include <omp.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <initializer_list>
 
 namespace quicksand {
+
+void start_with_patient_threads(char** arguments) {
+  // libgomp's count of rounds; a loop of the smallest size that is shared among threads takes about as long.
+  constexpr const char* spin_rounds = "10000";
+  for (const char* name : {"OMP_WAIT_POLICY", "GOMP_SPINCOUNT", "KMP_BLOCKTIME"}) {
+    if (std::getenv(name) != nullptr) return;
+  }
+  ::setenv("GOMP_SPINCOUNT", spin_rounds, 1);
+  ::setenv("KMP_BLOCKTIME", "0", 1);  // clang's library
+  ::execv("/proc/self/exe", arguments);
+  // Where that is not possible the program goes on as it is.
+}
 
 void set_threads(int count) {
   if (count > 0) omp_set_num_threads(count);

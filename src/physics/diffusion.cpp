@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "physics/rigid_iteration.hpp"
 #include "physics/viscous_iteration.hpp"
@@ -84,15 +86,8 @@ bool has_rigid_plasticity(const Species& s) { return rheology(s.law).rigid_yield
 
 template <int Dim>
 DiffusionWork<Dim>::DiffusionWork(const Domain<Dim>& domain, const std::vector<Species>& species)
-    : elements(domain),
-      potential(domain.layout()),
-      gap(domain.layout()),
-      matrix(domain.layout()),
-      mass(domain.layout()),
-      gradient(domain.layout()),
-      trial_gradient(domain.layout()),
-      update(domain.layout()),
-      trial(domain.layout()) {
+    : elements(domain), matrix(domain.layout()) {
+  acquire(domain.layout());
   if (std::any_of(species.begin(), species.end(), has_smooth_plasticity)) {
     stress = Field<Node, PointStresses<Dim>>(domain.layout());
   }
@@ -103,8 +98,25 @@ DiffusionWork<Dim>::DiffusionWork(const Domain<Dim>& domain, const std::vector<S
 }
 
 template <int Dim>
+void DiffusionWork<Dim>::acquire(const Layout<Dim>& layout) {
+  for (NodeField* field : {&potential, &gap}) {
+    if (field->size() == 0) *field = NodeField(layout);
+  }
+  for (CellVectors<Dim>* vectors : {&mass, &gradient, &trial_gradient, &update, &trial}) {
+    if ((*vectors)[0].size() == 0) *vectors = CellVectors<Dim>(layout);
+  }
+}
+
+template <int Dim>
+void DiffusionWork<Dim>::release() {
+  for (NodeField* field : {&potential, &gap}) *field = {};
+  for (CellVectors<Dim>* vectors : {&mass, &gradient, &trial_gradient, &update, &trial}) *vectors = {};
+}
+
+template <int Dim>
 DiffusionReport diffuse(const Domain<Dim>& domain, const CellField& rho, const CellVectors<Dim>& u_hat, double dt,
                         const DiffusionOptions& options, DiffusionWork<Dim>& work, CellVectors<Dim>& u) {
+  work.acquire(domain.layout());
   mark_participants(domain, rho, work);
   for (int d = 0; d < Dim; ++d) {
     for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) {
@@ -118,18 +130,29 @@ DiffusionReport diffuse(const Domain<Dim>& domain, const CellField& rho, const C
   if (rigid) prepare_multipliers(domain, rho, dt, work);
   // Start from u^ or from the guess, whichever lies lower.
   const ViscousProgress hat = progress_at(problem, u_hat);
-  if (!(evaluate_functional(domain, u_hat, u, dt, work, work.gradient).value < hat.value.value)) u = u_hat;
+  std::swap(work.gradient, work.trial_gradient);
+  ViscousProgress start = progress_at(problem, u);
+  if (!(start.value.value < hat.value.value)) {
+    u = u_hat;
+    start = hat;
+    std::swap(work.gradient, work.trial_gradient);
+  }
+  double reached = 0;  // norm of the gradient
   if (rigid) {
     report.converged = iterate_multipliers(problem, options, u, report);
+    reached = gradient_norm(domain, work, work.gradient);
   } else {
     problem.target = options.tolerance * hat.norm;
     problem.reached = [&](const ViscousProgress& now) { return now.norm <= problem.target; };
-    report.converged = iterate(problem, options.iteration, options.max_iterations, u, report);
-    report.gap = 0.5 * std::pow(gradient_norm(domain, work, work.gradient), 2);
+    const std::optional<double> norm =
+        work.has_nonlinear_law() ? std::nullopt : solve_linear_stress(problem, start.norm, u, report);
+    report.converged = norm || iterate(problem, options.iteration, options.max_iterations, u, report);
+    reached = norm ? *norm : gradient_norm(domain, work, work.gradient);
+    report.gap = 0.5 * reached * reached;
   }
   const double energy = stress_energy(problem, u);
   report.gap = energy > 0 ? report.gap / energy : 0.0;
-  report.residual = hat.norm > 0 ? gradient_norm(domain, work, work.gradient) / hat.norm : 0.0;
+  report.residual = hat.norm > 0 ? reached / hat.norm : 0.0;
   return report;
 }
 

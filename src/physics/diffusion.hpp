@@ -69,8 +69,14 @@ struct DiffusionWork {
   CellVectors<Dim> mass;
   CellVectors<Dim> gradient, trial_gradient, update, trial;
 
+  /// Makes the arrays that live within one step only, and gives them back.
+  void acquire(const Layout<Dim>& layout);
+  void release();
+
   DiffusionWork(const Domain<Dim>& domain, const std::vector<Species>& species);
 
+  /// Whether some species has a yield stress or shear thinning.
+  bool has_nonlinear_law() const { return stress.size() > 0 || multiplier.size() > 0; }
   /// Whether some species has a yield stress, rigid or regularised.
   bool has_yield_stress() const { return stress.size() > 0 || multiplier.size() > 0; }
   /// The rigid yield stress at point q of element n for the strain rate s.

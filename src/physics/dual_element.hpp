@@ -193,32 +193,99 @@ double inner(const StrainRate<Dim>& a, const StrainRate<Dim>& b) {
   return 0.5 * total;
 }
 
-/// Strain rate at mid-edge point q of an element from its corner velocities (boundary factors applied). On the axis
-/// itself the hoop strain is not defined; points there have no weight and must be left out.
+/// The edges of an element, numbered like the points in their middles.
 template <int Dim>
-StrainRate<Dim> strain_rate(const DualElement<Dim>& e, int q, const double (&u)[corner_count<Dim>][Dim]) {
-  const auto& shapes = mid_edge_shapes<Dim>;
-  double gradient[Dim][Dim] = {};  // [component][axis]
-  double hoop = 0;
-  for (int k = 0; k < corner_count<Dim>; ++k) {
+struct ElementEdges {
+  int low[point_count<Dim>];
+  int high[point_count<Dim>];
+  int touching[point_count<Dim>][Dim][2];  ///< the edges along an axis that touch the two ends
+
+  constexpr ElementEdges() : low{}, high{}, touching{} {
+    for (int q = 0; q < point_count<Dim>; ++q) {
+      const int along = q % Dim;
+      for (int d = 0, rest = q / Dim; d < Dim; ++d) {
+        if (d == along) continue;
+        low[q] += (rest & 1) << d;
+        rest >>= 1;
+      }
+      high[q] = low[q] + (1 << along);
+    }
+    for (int q = 0; q < point_count<Dim>; ++q) {
+      for (int d = 0; d < Dim; ++d) {
+        for (int p = d; p < point_count<Dim>; p += Dim) {
+          if (low[p] == low[q] || high[p] == low[q]) touching[q][d][0] = p;
+          if (low[p] == high[q] || high[p] == high[q]) touching[q][d][1] = p;
+        }
+      }
+    }
+  }
+};
+
+template <int Dim>
+inline constexpr ElementEdges<Dim> element_edges{};
+
+/// 1/r at a point, 0 unless axisymmetric. On the axis itself the hoop strain is not defined; points there have no
+/// weight.
+template <int Dim>
+double inverse_radius(const DualElement<Dim>& e, int q) {
+  return e.axisymmetric && e.radius_at(q) > 0 ? 1 / e.radius_at(q) : 0.0;
+}
+
+/// Strain rates at all points of an element from its corner velocities (boundary factors applied). The derivative along
+/// a point's own edge is the difference of its ends, those across are means over the two edges that touch the ends.
+template <int Dim>
+void strain_rates(const DualElement<Dim>& e, const double (&u)[corner_count<Dim>][Dim],
+                  StrainRate<Dim> (&rates)[point_count<Dim>]) {
+  constexpr const ElementEdges<Dim>& edges = element_edges<Dim>;
+  double slope[point_count<Dim>][Dim];
+  for (int q = 0; q < point_count<Dim>; ++q) {
+    for (int c = 0; c < Dim; ++c) {
+      slope[q][c] = (u[edges.high[q]][c] - u[edges.low[q]][c]) * e.inverse_width[q % Dim];
+    }
+  }
+  for (int q = 0; q < point_count<Dim>; ++q) {
+    double gradient[Dim][Dim];  // [component][axis]
     for (int d = 0; d < Dim; ++d) {
-      const double slope = shapes.derivative[q][k][d] * e.inverse_width[d];
-      for (int c = 0; c < Dim; ++c) gradient[c][d] += u[k][c] * slope;
+      const auto& touching = edges.touching[q][d];
+      for (int c = 0; c < Dim; ++c) gradient[c][d] = 0.5 * (slope[touching[0]][c] + slope[touching[1]][c]);
     }
-    hoop += shapes.value[q][k] * u[k][0];
+    const double hoop = 0.5 * (u[edges.low[q]][0] + u[edges.high[q]][0]) * inverse_radius(e, q);
+    double divergence = hoop;
+    for (int d = 0; d < Dim; ++d) divergence += gradient[d][d];
+    StrainRate<Dim>& s = rates[q];
+    for (int a = 0; a < Dim; ++a) {
+      for (int b = 0; b < Dim; ++b) {
+        s.delta[a][b] = gradient[a][b] + gradient[b][a] - (a == b ? 2 * divergence / 3 : 0.0);
+      }
+    }
+    s.third = Dim == 2 ? 2 * hoop - 2 * divergence / 3 : 0.0;
+    s.scalar = std::sqrt(inner(s, s));
   }
-  hoop = e.axisymmetric ? hoop / e.radius_at(q) : 0.0;
-  double divergence = hoop;
-  for (int d = 0; d < Dim; ++d) divergence += gradient[d][d];
-  StrainRate<Dim> s{};
-  for (int a = 0; a < Dim; ++a) {
-    for (int b = 0; b < Dim; ++b) {
-      s.delta[a][b] = gradient[a][b] + gradient[b][a] - (a == b ? 2 * divergence / 3 : 0.0);
+}
+
+/// Adds the corner forces of stresses at the points: sum over the points of stress : grad(N_k e_c).
+template <int Dim>
+void add_forces(const DualElement<Dim>& e, const StrainRate<Dim> (&stress)[point_count<Dim>],
+                double (&force)[corner_count<Dim>][Dim]) {
+  constexpr const ElementEdges<Dim>& edges = element_edges<Dim>;
+  double pull[point_count<Dim>][Dim] = {};  // along the edges
+  for (int q = 0; q < point_count<Dim>; ++q) {
+    for (int d = 0; d < Dim; ++d) {
+      for (const int edge : edges.touching[q][d]) {
+        for (int c = 0; c < Dim; ++c) pull[edge][c] += 0.5 * stress[q].delta[c][d];
+      }
+    }
+    const double hoop = 0.5 * stress[q].third * inverse_radius(e, q);
+    force[edges.low[q]][0] += hoop;
+    force[edges.high[q]][0] += hoop;
+  }
+  for (int q = 0; q < point_count<Dim>; ++q) {
+    for (int c = 0; c < Dim; ++c) {
+      const double f = pull[q][c] * e.inverse_width[q % Dim];
+      force[edges.high[q]][c] += f;
+      force[edges.low[q]][c] -= f;
     }
   }
-  if constexpr (Dim == 2) s.third = 2 * hoop - 2 * divergence / 3;
-  s.scalar = std::sqrt(inner(s, s));
-  return s;
 }
 
 extern template class DualMesh<2>;

@@ -60,19 +60,14 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       next_rho_(domain_.layout()),
       next_liquid_(domain_.layout()),
       interfaces_(domain_.layout(), parameters_.species.size()),
-      next_interfaces_(interfaces_),
       elements_(domain_.layout()),
-      next_elements_(elements_),
       momentum_tilde_(domain_.layout()),
       u_bar_(domain_.layout()),
       u_hat_(domain_.layout()),
       lagged_(domain_.layout()),
-      face_velocities_(domain_.layout()),
-      convection_(domain_.layout(), parameters_.species.size()),
       mac_(domain_.layout()),
       redistribution_(domain_, parameters_.species),
       diffusion_(domain_, parameters_.species),
-      projection_(domain_.layout()),
       gas_labels_(domain_.layout()),
       gas_pressure_(domain_.layout()),
       outer_pressure_(domain_.layout(), parameters_.ambient_pressure) {
@@ -116,9 +111,10 @@ void Flow<Dim>::initialize() {
   const Grid<Dim>& grid = domain_.grid;
   const CellVectors<Dim> none(domain_.layout());
   const double dt = 1;
+  ProjectionWork<Dim> work(domain_.layout());
   add_uniform(grid.layout(), grid.cells(), none, dt, parameters_.gravity, u_hat_);
   require_converged(solve_pressure(domain_, Projected::acceleration, 0.0, u_hat_, rho_, elements_, outer_pressure_, dt,
-                                   parameters_.linear, projection_, state_.pressure),
+                                   parameters_.linear, work, state_.pressure),
                     "initial pressure");
   add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -dt, u_hat_);
   state_.acceleration = u_hat_;
@@ -153,6 +149,7 @@ void Flow<Dim>::forget_failed_step() {
   diffusion_.stress.fill({});
   diffusion_.multiplier.fill({});
   mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
+  find_elements(state_, total_, interfaces_, elements_);
 }
 
 template <int Dim>
@@ -161,15 +158,16 @@ void Flow<Dim>::project(double dt, StepReport& report) {
   CellVectors<Dim>& u_bar_star = u_hat_;
   u_bar_star = next_.u;
   const double before = kinetic_energy(grid, next_rho_, u_bar_star);
+  ProjectionWork<Dim> work(domain_.layout());
   const auto solve = [&](double memory) {
     next_.pressure = state_.pressure;
-    SolveReport solved = solve_pressure(domain_, Projected::velocity, memory, u_bar_star, next_rho_, next_elements_,
-                                        outer_pressure_, dt, parameters_.linear, projection_, next_.pressure);
+    SolveReport solved = solve_pressure(domain_, Projected::velocity, memory, u_bar_star, next_rho_, elements_,
+                                        outer_pressure_, dt, parameters_.linear, work, next_.pressure);
     solved.iterations += report.projection.iterations;
     report.projection = solved;
-    report.gas_work = gas_work(domain_, u_bar_star, next_rho_, next_elements_, dt, projection_);
+    report.gas_work = gas_work(domain_, u_bar_star, next_rho_, elements_, dt, work);
     next_.u = u_bar_star;
-    add_pressure_gradient(domain_, next_.pressure, next_rho_, next_elements_, -dt, next_.u);
+    add_pressure_gradient(domain_, next_.pressure, next_rho_, elements_, -dt, next_.u);
     report.projection_energy_change = kinetic_energy(grid, next_rho_, next_.u) - before;
   };
   // What a yield stress holds is to stay at rest; where that costs energy the pressure is found without memory.
@@ -203,14 +201,20 @@ StepReport Flow<Dim>::step(double dt) {
   const auto clock = [&](Phase phase) { report.seconds[static_cast<std::size_t>(phase)] += watch.lap(); };
   std::vector<double> escaped = escaped_;
 
-  const ConvectionInput<Dim> in{state_.phi, total_, rho_, state_.u, state_.acceleration, liquid_, interfaces_};
-  predict_velocities(domain_, in, dt, convection_, face_velocities_);
-  clock(Phase::convection);
-  find_voids(domain_, total_, liquid_, dt, mac_.inflow);
-  report.mac = project_face_velocities(domain_, rho_, liquid_, mac_.inflow, par.linear, mac_, face_velocities_.mac);
-  clock(Phase::mac_projection);
-  split_velocities(domain_, in, convection_, face_velocities_);
-  convect(domain_, par.species, in, dt, face_velocities_, convection_, next_.phi, momentum_tilde_, escaped);
+  for (int d = 0; d < Dim; ++d) lagged_[d].fill(0);
+  add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -1.0, lagged_);
+  {
+    const ConvectionInput<Dim> in{state_.phi, total_, rho_, state_.u, state_.acceleration, liquid_, interfaces_};
+    ConvectionWork<Dim> work(domain_.layout(), par.species.size());
+    FaceVelocities<Dim> velocities(domain_.layout());
+    predict_velocities(domain_, in, dt, work, velocities);
+    clock(Phase::convection);
+    find_voids(domain_, total_, liquid_, dt, mac_.inflow);
+    report.mac = project_face_velocities(domain_, rho_, liquid_, mac_.inflow, par.linear, mac_, velocities.mac);
+    clock(Phase::mac_projection);
+    split_velocities(domain_, in, work, velocities);
+    convect(domain_, par.species, in, dt, velocities, work, next_.phi, momentum_tilde_, escaped);
+  }
   mix_density(grid, par.species, next_.phi, next_rho_);
   const double energy_tilde = kinetic_energy_of_momentum(grid, next_rho_, momentum_tilde_);
   clock(Phase::convection);
@@ -228,15 +232,13 @@ StepReport Flow<Dim>::step(double dt) {
   }
   gas_pressure_on_nodes(domain_, gas_parameters(), next_.gas, next_liquid_, true, gas_pressure_, outer_pressure_);
   set_open_pressures(domain_, outer_pressure_);
-  find_elements(next_, next_total_, next_interfaces_, next_elements_);
+  find_elements(next_, next_total_, interfaces_, elements_);
   clock(Phase::redistribute_volume);
   report.momentum = redistribute_momentum(domain_, momentum_tilde_, next_rho_, par.momentum, redistribution_, u_bar_);
   report.redistribution_energy_change = kinetic_energy(grid, next_rho_, u_bar_) - energy_tilde;
   clock(Phase::redistribute_momentum);
 
   next_.pressure = state_.pressure;
-  for (int d = 0; d < Dim; ++d) lagged_[d].fill(0);
-  add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -1.0, lagged_);
   add_uniform(grid.layout(), grid.cells(), u_bar_, dt, par.gravity, u_hat_);
   add_scaled(grid.layout(), grid.cells(), u_hat_, dt, lagged_, u_hat_);
   CellVectors<Dim>& u_star = next_.u;
@@ -245,6 +247,7 @@ StepReport Flow<Dim>::step(double dt) {
     // The stress of the last step is the best guess of this one's.
     add_scaled(grid.layout(), grid.cells(), u_bar_, dt, state_.acceleration, u_star);
     report.diffusion = diffuse(domain_, next_rho_, u_hat_, dt, par.diffusion, diffusion_, u_star);
+    diffusion_.release();
     if (!report.diffusion.converged) throw NumericalError("viscoplastic diffusion did not converge");
   }
   clock(Phase::diffusion);
@@ -262,8 +265,6 @@ StepReport Flow<Dim>::step(double dt) {
   next_.step = state_.step + 1;
   next_.dt = dt;
   std::swap(state_, next_);
-  std::swap(interfaces_, next_interfaces_);
-  std::swap(elements_, next_elements_);
   escaped_ = escaped;
   refresh();
   return report;

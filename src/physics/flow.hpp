@@ -113,15 +113,12 @@ class Flow {
   CellMask liquid_;
   CellField next_total_, next_rho_;
   CellMask next_liquid_;
-  Interfaces<Dim> interfaces_, next_interfaces_;
-  PressureElements<Dim> elements_, next_elements_;
+  Interfaces<Dim> interfaces_;
+  PressureElements<Dim> elements_;
   CellVectors<Dim> momentum_tilde_, u_bar_, u_hat_, lagged_;
-  FaceVelocities<Dim> face_velocities_;
-  ConvectionWork<Dim> convection_;
   MacProjectionWork<Dim> mac_;
   RedistributionWork<Dim> redistribution_;
   DiffusionWork<Dim> diffusion_;
-  ProjectionWork<Dim> projection_;
   GasLabels gas_labels_;
   CellField gas_pressure_;    ///< of gas cells
   NodeField outer_pressure_;  ///< of the gas around each node

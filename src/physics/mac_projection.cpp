@@ -80,19 +80,22 @@ SolveReport project_face_velocities(const Domain<Dim>& domain, const CellField& 
                                     const CellField& inflow, const SolveOptions& options, MacProjectionWork<Dim>& work,
                                     FaceScalars<Dim>& u_mac) {
   const Grid<Dim>& grid = domain.grid;
-  work.matrix.box = bounding_box<Cell>(domain.layout(), grid.cells(), [&](Cell c) { return liquid[c] != 0; });
-  if (work.matrix.box.empty()) return {.converged = true};
-  assemble(domain, rho, liquid, work.matrix);
+  const Box<Dim> box = bounding_box<Cell>(domain.layout(), grid.cells(), [&](Cell c) { return liquid[c] != 0; });
+  if (box.empty()) return {.converged = true};
+  StencilMatrix<Dim, Cell> matrix(domain.layout(), Stencil::star);
+  matrix.box = box;
+  assemble(domain, rho, liquid, matrix);
+  CellField divergence(domain.layout());
   for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
     double out = 0;
     for (int d = 0; d < Dim; ++d) {
       const Face above = low_face(c + grid.step(d));
       out += domain.aperture[d][above] * u_mac[d][above] - domain.aperture[d][low_face(c)] * u_mac[d][low_face(c)];
     }
-    work.divergence[c] = liquid[c] ? -out - inflow[c] : 0.0;
+    divergence[c] = liquid[c] ? -out - inflow[c] : 0.0;
     if (!liquid[c]) work.potential[c] = 0;
   });
-  const SolveReport report = solve(work.matrix, work.divergence, work.potential, options);
+  const SolveReport report = solve(matrix, divergence, work.potential, options);
   require_converged(report, "MAC projection");
   wrap(domain.layout(), grid.cells(), work.potential);
   for (int d = 0; d < Dim; ++d) {

@@ -19,16 +19,13 @@ template <int Dim>
 void find_voids(const Domain<Dim>& domain, const CellField& total, const CellMask& liquid, double dt,
                 CellField& inflow);
 
-/// Work arrays and the potential of the last step, the next one's first guess.
+/// The potential of the last step, the next one's first guess, and what voids ask for.
 template <int Dim>
 struct MacProjectionWork {
-  StencilMatrix<Dim, Cell> matrix;
   CellField inflow;  ///< find_voids()
-  CellField divergence;
   CellField potential;
 
-  explicit MacProjectionWork(const Layout<Dim>& layout)
-      : matrix(layout, Stencil::star), inflow(layout), divergence(layout), potential(layout) {}
+  explicit MacProjectionWork(const Layout<Dim>& layout) : inflow(layout), potential(layout) {}
 };
 
 /// Solves div(1/rho grad q) = div u_mac + inflow / V in D with q = 0 on the border of D, and corrects u_mac on the

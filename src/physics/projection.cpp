@@ -82,20 +82,20 @@ struct CellPressure {
 template <int Dim>
 void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellField& rho,
               const PressureElements<Dim>& elements, double dt, double memory, const NodeField& increment,
-              ProjectionWork<Dim>& work) {
+              StencilMatrix<Dim, Node>& matrix, NodeField& rhs) {
   using C = Corners<Dim>;
   const Grid<Dim>& grid = domain.grid;
   const Layout<Dim>& layout = domain.layout();
   const C corners(layout);
-  const PairTable<Dim> pairs(work.matrix);
+  const PairTable<Dim> pairs(matrix);
   const NodeMask& free = elements.free;
   // One layer more: rows reach couplings of the nodes around the box, which may be left from another box.
-  for_each<Node>(layout, grow(work.matrix.box, 1), [&](Node n) {
-    work.matrix.diagonal[n] = free[n] ? 0.0 : 1.0;
-    for (auto& lower : work.matrix.lower) lower[n] = 0;
-    work.rhs[n] = 0;
+  for_each<Node>(layout, grow(matrix.box, 1), [&](Node n) {
+    matrix.diagonal[n] = free[n] ? 0.0 : 1.0;
+    for (auto& lower : matrix.lower) lower[n] = 0;
+    rhs[n] = 0;
   });
-  Box<Dim> cells = work.matrix.box;
+  Box<Dim> cells = matrix.box;
   for (int d = 0; d < Dim; ++d) --cells.lo[d];
   for_each_coloured<Cell>(layout, intersect(cells, grid.cells()), [&](Cell c, const Index<Dim>& i) {
     if (!elements.bears[c]) return;
@@ -111,15 +111,15 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
       for (int b = 0; b < C::count; ++b) {
         const Node nb = corner[b];
         const double k = scale * cell.stiffness[a][b];
-        if (a == b) work.matrix.diagonal[na] += k;
-        if (a > b && free[nb]) work.matrix.lower[pairs.offset[a][b]][na] += k;
+        if (a == b) matrix.diagonal[na] += k;
+        if (a > b && free[nb]) matrix.lower[pairs.offset[a][b]][na] += k;
         if (!free[nb]) source -= k * increment[nb];
         source += memory * scale * cell.surplus[a][b] * increment[nb];
       }
-      work.rhs[na] += source;
+      rhs[na] += source;
     }
   });
-  work.matrix.wrap_couplings();
+  matrix.wrap_couplings();
 }
 
 /// What comes in through inflow sides: -integral of N u . n over them, on the right-hand side.
@@ -193,14 +193,16 @@ SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, double mem
     if (!elements.free[n]) pressure[n] = outer_pressure[n];
     work.increment[n] = pressure[n] - reference;
   });
-  work.matrix.box = bounding_box<Node>(domain.layout(), nodes, [&](Node n) { return elements.free[n] != 0; });
+  const Box<Dim> box = bounding_box<Node>(domain.layout(), nodes, [&](Node n) { return elements.free[n] != 0; });
   SolveReport report{.converged = true};
-  if (!work.matrix.box.empty()) {
-    assemble(domain, u_bar_star, rho, elements, dt, memory, work.increment, work);
+  if (!box.empty()) {
+    StencilMatrix<Dim, Node> matrix(domain.layout(), Stencil::box);
+    matrix.box = box;
+    assemble(domain, u_bar_star, rho, elements, dt, memory, work.increment, matrix, work.rhs);
     if (what == Projected::velocity) add_inflow(domain, elements, work);
-    report = solve(work.matrix, work.rhs, work.increment, options);
+    report = solve(matrix, work.rhs, work.increment, options);
     require_converged(report, "pressure projection");
-    for_each<Node>(domain.layout(), work.matrix.box, [&](Node n) {
+    for_each<Node>(domain.layout(), box, [&](Node n) {
       if (elements.free[n]) pressure[n] = reference + work.increment[n];
       work.increment[n] = pressure[n] - reference;  // the solve leaves 0 on given nodes
     });

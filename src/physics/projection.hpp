@@ -14,11 +14,10 @@ namespace quicksand {
 /// Work arrays of the projection.
 template <int Dim>
 struct ProjectionWork {
-  StencilMatrix<Dim, Node> matrix;
   NodeField rhs;
   NodeField increment;  ///< pressure above the least one given outside D
 
-  explicit ProjectionWork(const Layout<Dim>& layout) : matrix(layout, Stencil::box), rhs(layout), increment(layout) {}
+  explicit ProjectionWork(const Layout<Dim>& layout) : rhs(layout), increment(layout) {}
 };
 
 /// u += factor dt / rho grad P in the cells that bear pressure: factor -1 applies a pressure gradient, +1 takes it

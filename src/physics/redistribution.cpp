@@ -82,20 +82,13 @@ double settle_negative(const Domain<Dim>& domain, CellField& phi) {
 template <int Dim>
 RedistributionWork<Dim>::RedistributionWork(const Domain<Dim>& domain, const std::vector<Species>& species)
     : laplacian(domain.layout(), Stencil::star),
-      momentum(static_cast<std::size_t>(Dim), StencilMatrix<Dim, Cell>(domain.layout(), Stencil::star)),
+      diagonal(domain.layout()),
       H_species(species.size(), CellField(domain.layout())),
-      H(domain.layout()),
-      excess(domain.layout()),
-      system(domain.layout(), Stencil::star),
-      y(domain.layout()),
-      rhs(domain.layout()) {
+      H(domain.layout()) {
   least_density = std::numeric_limits<double>::infinity();
   for (const Species& s : species) least_density = std::min(least_density, smallest_filling * s.density);
   const Grid<Dim>& grid = domain.grid;
-  assemble_laplacian(
-      grid, [&](int d, int s) { return potential_rule(domain.sides.at(d, s)); }, laplacian);
   for (int e = 0; e < Dim; ++e) {
-    StencilMatrix<Dim, Cell>& matrix = momentum[static_cast<std::size_t>(e)];
     assemble_laplacian(
         grid,
         [&](int d, int s) {
@@ -103,14 +96,17 @@ RedistributionWork<Dim>::RedistributionWork(const Domain<Dim>& domain, const std
           const Side& side = domain.sides.at(d, s);
           return is_passable(side) ? potential_rule(side) : inviscid_velocity_rule(side, d == e);
         },
-        matrix);
+        laplacian);
+    diagonal[e] = laplacian.diagonal;
     if (e == 0 && grid.axisymmetric()) {
       for_each_indexed<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
         const double r = grid.centre_position(0, i[0]);
-        matrix.diagonal[c] += grid.volume(c) / (r * r);
+        diagonal[e][c] += grid.volume(c) / (r * r);
       });
     }
   }
+  assemble_laplacian(
+      grid, [&](int d, int s) { return potential_rule(domain.sides.at(d, s)); }, laplacian);
 }
 
 template <int Dim>
@@ -120,17 +116,18 @@ std::vector<ObstacleReport> redistribute_volume(const Domain<Dim>& domain, const
   const Grid<Dim>& grid = domain.grid;
   const Layout<Dim>& layout = domain.layout();
   std::vector<ObstacleReport> reports;
+  CellField excess(layout);  // (phi~ - limit) V, then what leaves a cell
   work.H.fill(0);
   for (std::size_t i = 0; i < phi.size(); ++i) {
     CellField& H_i = work.H_species[i];
     for_each<Cell>(layout, grid.cells(), [&](Cell c) {
       double taken = 0;
       for (std::size_t j = 0; j < i; ++j) taken += phi[j][c];
-      work.excess[c] = (phi[i][c] - std::max(1 - taken, 0.0)) * grid.volume(c);
+      excess[c] = (phi[i][c] - std::max(1 - taken, 0.0)) * grid.volume(c);
     });
-    reports.push_back(solve_obstacle(work.laplacian, work.excess, grid.volumes(), H_i, options));
+    reports.push_back(solve_obstacle(work.laplacian, excess, grid.volumes(), H_i, options));
     if (!reports.back().trivial) {
-      escaped[i] += apply_potential(domain, H_i, work.laplacian, work.rhs, phi[i]);
+      escaped[i] += apply_potential(domain, H_i, work.laplacian, excess, phi[i]);
       for_each<Cell>(layout, grid.cells(), [&](Cell c) { work.H[c] += species[i].density * H_i[c]; });
     }
     escaped[i] -= settle_negative(domain, phi[i]);
@@ -146,12 +143,15 @@ SolveReport redistribute_momentum(const Domain<Dim>& domain, const CellVectors<D
   const Layout<Dim>& layout = domain.layout();
   CellField& H = work.H;
   wrap(layout, grid.cells(), H);
-  StencilMatrix<Dim, Cell>& system = work.system;
+  StencilMatrix<Dim, Cell>& A = work.laplacian;  // with the diagonal of one component after the other
+  const CellField diagonal = A.diagonal;
+  StencilMatrix<Dim, Cell> system(layout, Stencil::star);
+  CellField y(layout), rhs(layout);
   system.box = bounding_box<Cell>(layout, grid.cells(), [&](Cell c) { return H[c] > 0; });
   SolveReport worst{.converged = true};
   for (int e = 0; e < Dim; ++e) {
-    const StencilMatrix<Dim, Cell>& A = work.momentum[static_cast<std::size_t>(e)];
-    work.y.fill(0);
+    A.diagonal = work.diagonal[e];
+    y.fill(0);
     if (!system.box.empty()) {
       for_each<Cell>(layout, system.box, [&](Cell c) {
         const bool in = H[c] > 0;
@@ -160,21 +160,22 @@ SolveReport redistribute_momentum(const Domain<Dim>& domain, const CellVectors<D
           const std::size_t k = static_cast<std::size_t>(d);
           system.lower[k][c] = in && H[c - grid.step(d)] > 0 ? A.lower[k][c] : 0.0;
         }
-        work.rhs[c] = in ? grid.volume(c) * momentum_tilde[e][c] : 0.0;
-        work.y[c] = in ? H[c] * momentum_tilde[e][c] / rho[c] : 0.0;
+        rhs[c] = in ? grid.volume(c) * momentum_tilde[e][c] : 0.0;
+        y[c] = in ? H[c] * momentum_tilde[e][c] / rho[c] : 0.0;
       });
       system.wrap_couplings();
-      const SolveReport report = solve(system, work.rhs, work.y, options);
+      const SolveReport report = solve(system, rhs, y, options);
       require_converged(report, "momentum redistribution");
       if (report.iterations > worst.iterations) worst = report;
     }
     // In flux form, so that momentum is conserved however well y was solved for.
-    A.apply(work.y, work.rhs);
+    A.apply(y, rhs);
     for_each<Cell>(layout, grid.cells(), [&](Cell c) {
-      const double momentum = momentum_tilde[e][c] - work.rhs[c] / grid.volume(c);
+      const double momentum = momentum_tilde[e][c] - rhs[c] / grid.volume(c);
       u_bar[e][c] = rho[c] > work.least_density ? momentum / rho[c] : 0.0;
     });
   }
+  A.diagonal = diagonal;
   return worst;
 }
 

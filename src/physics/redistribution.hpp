@@ -15,13 +15,11 @@ namespace quicksand {
 template <int Dim>
 struct RedistributionWork {
   StencilMatrix<Dim, Cell> laplacian;  ///< for volume and tangential momentum
-  std::vector<StencilMatrix<Dim, Cell>>
-      momentum;                      ///< per velocity component: odd at closed sides it is normal to, hoop term
+  /// Per velocity component the diagonal of its operator, which is odd at closed sides that the component is normal to
+  /// and has a hoop term; couplings are those of the laplacian.
+  CellVectors<Dim> diagonal;
   std::vector<CellField> H_species;  ///< H_i of (25)
   CellField H;                       ///< (27)
-  CellField excess;                  ///< (phi~ - limit) V
-  StencilMatrix<Dim, Cell> system;   ///< V rho / H + A on {H > 0}
-  CellField y, rhs;
 
   double least_density;  ///< cells of lower density are without momentum
 

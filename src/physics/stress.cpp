@@ -26,10 +26,12 @@ StressFields evaluate_stress(const Flow<Dim>& flow) {
     const DualElement<Dim> e = elements.mesh.element(n, index);
     double corner[corner_count<Dim>][Dim];
     gather(e, flow.state().u, corner);
+    StrainRate<Dim> rates[point_count<Dim>];
+    strain_rates(e, corner, rates);
     for (int q = 0; q < point_count<Dim>; ++q) {
       if (!(e.weight(q) > 0)) continue;
       const Rheology& rheology = elements.rheology[n];
-      const StrainRate<Dim> s = strain_rate(e, q, corner);
+      const StrainRate<Dim>& s = rates[q];
       double f = effective_viscosity(rheology, s.scalar);
       double magnitude = f * s.scalar;
       bool unyielded = magnitude < yielding_share * rheology.regularised_yield_stress();

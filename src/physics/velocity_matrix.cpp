@@ -4,26 +4,30 @@ namespace quicksand {
 
 template <int Dim>
 VelocityMatrix<Dim>::VelocityMatrix(const Layout<Dim>& layout)
-    : diagonal_(at(Dim), StencilMatrix<Dim, Cell>(layout, Stencil::box)),
-      cross_centre_(at(Dim * (Dim - 1) / 2), CellField(layout)),
-      cross_lower_(at(Dim * Dim)) {
-  for (int a = 0; a < Dim; ++a) {
-    for (int b = 0; b < Dim; ++b) {
-      if (a != b) cross_lower_[at(a * Dim + b)].assign(offsets().size(), CellField(layout));
-    }
-  }
-}
+    : layout_(layout), box_{Index<Dim>{}, layout.cells()}, offsets_(lower_offsets<Dim>(Stencil::box)) {}
 
 template <int Dim>
 void VelocityMatrix<Dim>::set_box(const Box<Dim>& box) {
+  box_ = box;
   for (StencilMatrix<Dim, Cell>& m : diagonal_) m.box = box;
 }
 
 template <int Dim>
 void VelocityMatrix<Dim>::clear() {
+  if (diagonal_.empty()) {
+    diagonal_.assign(at(Dim), StencilMatrix<Dim, Cell>(layout_, Stencil::box));
+    cross_centre_.assign(at(Dim * (Dim - 1) / 2), CellField(layout_));
+    cross_lower_.resize(at(Dim * Dim));
+    for (int a = 0; a < Dim; ++a) {
+      for (int b = 0; b < Dim; ++b) {
+        if (a != b) cross_lower_[at(a * Dim + b)].assign(offsets().size(), CellField(layout_));
+      }
+    }
+    set_box(box_);
+  }
   // One layer more, where apply() reads the couplings of rows around the box.
   const Box<Dim> rows = grow(box(), 1);
-  const auto zero = [&](CellField& f) { for_each<Cell>(diagonal_[0].layout, rows, [&](Cell c) { f[c] = 0; }); };
+  const auto zero = [&](CellField& f) { for_each<Cell>(layout_, rows, [&](Cell c) { f[c] = 0; }); };
   for (int a = 0; a < Dim; ++a) {
     for (int b = 0; b < Dim; ++b) {
       if (b >= a) zero(centre(a, b));
@@ -36,13 +40,13 @@ template <int Dim>
 void VelocityMatrix<Dim>::wrap_couplings() {
   for (StencilMatrix<Dim, Cell>& m : diagonal_) m.wrap_couplings();
   for (std::vector<CellField>& couplings : cross_lower_) {
-    for (CellField& coupling : couplings) wrap(diagonal_[0].layout, box(), coupling);
+    for (CellField& coupling : couplings) wrap(layout_, box(), coupling);
   }
 }
 
 template <int Dim>
 void VelocityMatrix<Dim>::apply(CellVectors<Dim>& x, CellVectors<Dim>& y) const {
-  const Layout<Dim>& layout = diagonal_[0].layout;
+  const Layout<Dim>& layout = layout_;
   const std::vector<Step>& steps = diagonal_[0].steps;
   for (int a = 0; a < Dim; ++a) diagonal_[at(a)].apply(x[a], y[a]);
   for (int a = 0; a < Dim; ++a) {

@@ -18,9 +18,10 @@ class VelocityMatrix {
  public:
   explicit VelocityMatrix(const Layout<Dim>& layout);
 
-  const Box<Dim>& box() const { return diagonal_[0].box; }
+  const Box<Dim>& box() const { return box_; }
   void set_box(const Box<Dim>& box);
-  /// Zero in all entries of rows of the box.
+  /// Zero in all entries of rows of the box. The entries come into being here: flows without stress, and those that do
+  /// with less, don't pay for them.
   void clear();
 
   StencilMatrix<Dim, Cell>& component(int a) { return diagonal_[at(a)]; }
@@ -35,7 +36,7 @@ class VelocityMatrix {
   const CellField& lower(int a, int b, std::size_t e) const {
     return a == b ? diagonal_[at(a)].lower[e] : cross_lower_[at(a * Dim + b)][e];
   }
-  const std::vector<Index<Dim>>& offsets() const { return diagonal_[0].offsets; }
+  const std::vector<Index<Dim>>& offsets() const { return offsets_; }
 
   /// To be called when the couplings have been written: copies them across the ends of periodic axes.
   void wrap_couplings();
@@ -46,6 +47,9 @@ class VelocityMatrix {
   static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
   static constexpr std::size_t pair(int a, int b) { return at(a + b - 1); }  // (0,1) (0,2) (1,2) -> 0 1 2
 
+  Layout<Dim> layout_;
+  Box<Dim> box_;
+  std::vector<Index<Dim>> offsets_;
   std::vector<StencilMatrix<Dim, Cell>> diagonal_;
   std::vector<CellField> cross_centre_;
   std::vector<std::vector<CellField>> cross_lower_;  // [a * Dim + b], empty for a == b

@@ -1,9 +1,10 @@
 #include "physics/velocity_solver.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "solvers/banded_cholesky.hpp"
 #include "solvers/multigrid.hpp"
 
 namespace quicksand {
@@ -12,82 +13,51 @@ namespace {
 
 constexpr int max_iterations = 400;
 
-/// Systems of up to so many cells in the plane are factorised: the multigrid's set-up and its many small loops cost
-/// more.
-constexpr std::ptrdiff_t largest_direct = 1000;
-
-/// Numbers of the cells of a box, one after the other, and of their copies; -1 elsewhere.
-template <int Dim>
-Field<Cell, int> number_cells(const Layout<Dim>& layout, const Box<Dim>& box, std::vector<Cell>& cells) {
-  Field<Cell, int> number(layout, -1);
-  const Rows<Dim> rows(layout, box);
-  for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
-    for (int i = 0; i < rows.length; ++i) {
-      const Cell c{rows.start(r) + i};
-      number[c] = static_cast<int>(cells.size());
-      cells.push_back(c);
-    }
-  }
-  wrap(layout, box, number);
-  return number;
-}
-
-/// The lower triangle as a sparse matrix; unknown number = Dim * cell number + component.
-template <int Dim>
-Eigen::SparseMatrix<double> sparse_lower(const VelocityMatrix<Dim>& matrix, const std::vector<Cell>& cells,
-                                         const Field<Cell, int>& number) {
-  std::vector<Eigen::Triplet<double>> entries;
-  const std::vector<Step>& steps = matrix.component(0).steps;
-  entries.reserve(cells.size() * Dim * Dim * (steps.size() + 1));
-  for (const Cell c : cells) {
-    for (int a = 0; a < Dim; ++a) {
-      const int row = Dim * number[c] + a;
-      for (int b = 0; b <= a; ++b) entries.emplace_back(row, Dim * number[c] + b, matrix.centre(a, b)[c]);
-      for (std::size_t e = 0; e < steps.size(); ++e) {
-        const int neighbour = number[c - steps[e]];
-        if (neighbour < 0) continue;
-        for (int b = 0; b < Dim; ++b) {
-          const double value = matrix.lower(a, b, e)[c];
-          if (value == 0) continue;
-          // Across the ends of a periodic axis the lower neighbour has the higher number.
-          const int column = Dim * neighbour + b;
-          entries.emplace_back(std::max(row, column), std::min(row, column), value);
-        }
-      }
-    }
-  }
-  const auto n = static_cast<Eigen::Index>(cells.size()) * Dim;
-  Eigen::SparseMatrix<double> sparse(n, n);
-  sparse.setFromTriplets(entries.begin(), entries.end());
-  return sparse;
-}
+/// Systems in the plane whose neighbours' numbers differ by so much at most are factorised.
+constexpr int widest_band = 72;
 
 }  // namespace
 
-/// Sparse Cholesky factors; unusable where the matrix is not positive definite to round-off.
+/// Banded Cholesky factors; unusable where the matrix is not positive definite to round-off. Unknown number = Dim *
+/// cell number + component.
 template <int Dim>
 struct VelocitySolver<Dim>::Factors {
-  std::vector<Cell> cells;
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors;
+  BandOrder<Dim> order;
+  BandedCholesky factors;
+  bool usable;
+  std::vector<double> packed;
 
-  explicit Factors(const VelocityMatrix<Dim>& matrix) {
-    const Field<Cell, int> number = number_cells(matrix.component(0).layout, matrix.box(), cells);
-    factors.compute(sparse_lower(matrix, cells, number));
+  static int bandwidth(const BandOrder<Dim>& order) { return Dim * order.bandwidth() + Dim - 1; }
+
+  Factors(const VelocityMatrix<Dim>& matrix, const BandOrder<Dim>& band)
+      : order(band), factors(Dim * order.size(), bandwidth(order)) {
+    order.template for_each<Cell>([&](Cell c, const Index<Dim>& i, int n) {
+      for (int a = 0; a < Dim; ++a) {
+        for (int b = 0; b <= a; ++b) factors.add(Dim * n + a, Dim * n + b, matrix.centre(a, b)[c]);
+      }
+      for (std::size_t e = 0; e < matrix.offsets().size(); ++e) {
+        const int neighbour = order.number(i + matrix.offsets()[e]);
+        if (neighbour < 0) continue;
+        for (int a = 0; a < Dim; ++a) {
+          for (int b = 0; b < Dim; ++b) factors.add(Dim * n + a, Dim * neighbour + b, matrix.lower(a, b, e)[c]);
+        }
+      }
+    });
+    usable = factors.factorize();
   }
   /// Returns false when the solution is not finite.
-  bool solve(const CellVectors<Dim>& b, CellVectors<Dim>& x) const {
-    if (factors.info() != Eigen::Success) return false;
-    Eigen::VectorXd vector(static_cast<Eigen::Index>(cells.size()) * Dim);
-    Eigen::Index k = 0;
-    for (const Cell c : cells) {
-      for (int a = 0; a < Dim; ++a) vector[k++] = b[a][c];
-    }
-    vector = factors.solve(vector).eval();
-    if (!vector.allFinite()) return false;
-    k = 0;
-    for (const Cell c : cells) {
-      for (int a = 0; a < Dim; ++a) x[a][c] = vector[k++];
-    }
+  bool solve(const CellVectors<Dim>& b, CellVectors<Dim>& x) {
+    if (!usable) return false;
+    packed.resize(static_cast<std::size_t>(Dim * order.size()));
+    const auto at = [&](int n, int a) { return static_cast<std::size_t>(Dim * n + a); };
+    order.template for_each<Cell>([&](Cell c, const Index<Dim>&, int n) {
+      for (int a = 0; a < Dim; ++a) packed[at(n, a)] = b[a][c];
+    });
+    factors.solve(packed);
+    if (!std::all_of(packed.begin(), packed.end(), [](double v) { return std::isfinite(v); })) return false;
+    order.template for_each<Cell>([&](Cell c, const Index<Dim>&, int n) {
+      for (int a = 0; a < Dim; ++a) x[a][c] = packed[at(n, a)];
+    });
     return true;
   }
 };
@@ -99,13 +69,18 @@ struct VelocitySolver<Dim>::Cycles {
 
   explicit Cycles(const VelocityMatrix<Dim>& matrix) {
     of_component.reserve(static_cast<std::size_t>(Dim));
-    for (int d = 0; d < Dim; ++d) of_component.emplace_back(matrix.component(d), MultigridKind::pfmg);
+    const bool whole = Dim == 2 || pfmg_suits_27_points();
+    for (int d = 0; d < Dim; ++d) {
+      const StencilMatrix<Dim, Cell>& block = matrix.component(d);
+      of_component.emplace_back(whole ? block : star_part(block), MultigridKind::pfmg);
+    }
   }
 };
 
 template <int Dim>
 VelocitySolver<Dim>::VelocitySolver(const VelocityMatrix<Dim>& matrix) : matrix_(&matrix) {
-  if (Dim == 2 && matrix.box().size() <= largest_direct) factors_ = std::make_unique<Factors>(matrix);
+  const BandOrder<Dim> order(matrix.component(0).layout, matrix.box());
+  if (Factors::bandwidth(order) <= widest_band) factors_ = std::make_unique<Factors>(matrix, order);
 }
 template <int Dim>
 VelocitySolver<Dim>::~VelocitySolver() = default;

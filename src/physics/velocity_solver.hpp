@@ -8,7 +8,7 @@
 
 namespace quicksand {
 
-/// A matrix made ready to be solved any number of times: small plane systems by sparse Cholesky factors, the others by
+/// A matrix made ready to be solved any number of times: small plane systems by banded Cholesky factors, the others by
 /// conjugate gradients with one multigrid cycle per component as preconditioner.
 template <int Dim>
 class VelocitySolver {

@@ -1,31 +1,11 @@
 #include "physics/viscous_functional.hpp"
 
+#include "physics/element_stiffness.hpp"
 #include "physics/rigid_yield.hpp"
 
 namespace quicksand {
 
 namespace {
-
-/// Derivatives of the shape functions at a point, boundary factors left out.
-template <int Dim>
-struct PointShapes {
-  double gradient[corner_count<Dim>][Dim];
-  double hoop[corner_count<Dim>];  ///< N / r, 0 unless axisymmetric
-
-  PointShapes(const DualElement<Dim>& e, int q) {
-    const double inverse_radius = e.axisymmetric ? 1 / e.radius_at(q) : 0.0;
-    for (int k = 0; k < corner_count<Dim>; ++k) {
-      for (int d = 0; d < Dim; ++d) gradient[k][d] = mid_edge_shapes<Dim>.derivative[q][k][d] * e.inverse_width[d];
-      hoop[k] = mid_edge_shapes<Dim>.value[q][k] * inverse_radius;
-    }
-  }
-  /// Delta : grad (N_k e_c), the strain of a unit velocity at a corner against a strain rate.
-  double against(const StrainRate<Dim>& s, int k, int c) const {
-    double t = c == 0 ? s.third * hoop[k] : 0.0;
-    for (int d = 0; d < Dim; ++d) t += s.delta[c][d] * gradient[k][d];
-    return t;
-  }
-};
 
 /// The factor k for which f I + k sym(S Delta) is the derivative of the plastic stress f Delta with respect to Delta,
 /// given its present estimate S; reduced where S is so large that the matrix would lose its definiteness.
@@ -57,44 +37,28 @@ void advance_stress(StrainRate<Dim>& stress, const StrainRate<Dim>& s, const Str
   }
 }
 
-/// Stiffness of one element, [corner a][corner b][component][component]; filled for a >= b, the rest follows by
-/// symmetry.
+/// a A + b B; its scalar means nothing.
 template <int Dim>
-using ElementMatrix = double[corner_count<Dim>][corner_count<Dim>][Dim][Dim];
+StrainRate<Dim> combination(double a, const StrainRate<Dim>& A, double b, const StrainRate<Dim>& B) {
+  StrainRate<Dim> sum;
+  sum.third = a * A.third + b * B.third;
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = 0; j < Dim; ++j) sum.delta[i][j] = a * A.delta[i][j] + b * B.delta[i][j];
+  }
+  sum.scalar = 0;
+  return sum;
+}
 
-/// Adds f 1/2 Delta(v):Delta(w) + k sym[(1/2 Delta(u):Delta(v)) (1/2 S:Delta(w))] for unit corner velocities v, w.
-/// \param stress  S
-/// \param k       coefficient of the second term, <= 0
+/// Weights of an element's points times a factor.
 template <int Dim>
-void add_point(const PointShapes<Dim>& shapes, const StrainRate<Dim>& s, const StrainRate<Dim>& stress, double f,
-               double k, ElementMatrix<Dim>& K) {
-  double against[corner_count<Dim>][Dim];
-  double against_stress[corner_count<Dim>][Dim];
-  for (int n = 0; n < corner_count<Dim>; ++n) {
-    for (int c = 0; c < Dim; ++c) {
-      against[n][c] = shapes.against(s, n, c);
-      against_stress[n][c] = shapes.against(stress, n, c);
-    }
-  }
-  for (int a = 0; a < corner_count<Dim>; ++a) {
-    const double(&ga)[Dim] = shapes.gradient[a];
-    for (int b = 0; b <= a; ++b) {
-      const double(&gb)[Dim] = shapes.gradient[b];
-      double dot = 0;
-      for (int d = 0; d < Dim; ++d) dot += ga[d] * gb[d];
-      for (int i = 0; i < Dim; ++i) {
-        const double div_a = ga[i] + (i == 0 ? shapes.hoop[a] : 0.0);
-        for (int j = 0; j < Dim; ++j) {
-          const double div_b = gb[j] + (j == 0 ? shapes.hoop[b] : 0.0);
-          double strain = ga[j] * gb[i] - 2 * div_a * div_b / 3;
-          if (i == j) strain += dot;
-          if (i == 0 && j == 0) strain += 2 * shapes.hoop[a] * shapes.hoop[b];
-          const double plastic = against[a][i] * against_stress[b][j] + against_stress[a][i] * against[b][j];
-          K[a][b][i][j] += f * strain + 0.5 * k * plastic;
-        }
-      }
-    }
-  }
+struct PointWeights {
+  double at[point_count<Dim>];
+};
+template <int Dim>
+PointWeights<Dim> point_weights(const DualElement<Dim>& e, double factor) {
+  PointWeights<Dim> weights;
+  for (int q = 0; q < point_count<Dim>; ++q) weights.at[q] = factor * e.weight(q);
+  return weights;
 }
 
 /// Number of the lower offset whose cells lie `place` (base 3) apart.
@@ -121,7 +85,7 @@ void scatter(const DualElement<Dim>& e, const ElementMatrix<Dim>& K, const Offse
       const int apart = e.place[a] - e.place[b];
       for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j) {
-          const double value = e.factor[a][i] * e.factor[b][j] * K[a][b][i][j];
+          const double value = e.factor[a][i] * e.factor[b][j] * K.at[a][b][i][j];
           if (apart > 0) {
             matrix.lower(i, j, table.of_place[apart])[e.corner[a]] += value;
           } else if (apart < 0) {
@@ -156,27 +120,26 @@ FunctionalValue evaluate_functional(const Domain<Dim>& domain, const CellVectors
     const DualElement<Dim> e = work.elements.mesh.element(n, index);
     double corner[corner_count<Dim>][Dim];
     gather(e, u, corner);
-    double force[corner_count<Dim>][Dim] = {};
+    StrainRate<Dim> rates[point_count<Dim>];
+    strain_rates(e, corner, rates);
     double potential = 0;
     double gap = 0;
     for (int q = 0; q < point_count<Dim>; ++q) {
       const double weight = dt * work.elements.share[n] * e.weight(q);
-      if (!(weight > 0)) continue;
-      const StrainRate<Dim> s = strain_rate(e, q, corner);
+      StrainRate<Dim>& s = rates[q];  // becomes the stress
       const LawValue law = evaluate(work.elements.rheology[n], s.scalar);
       potential += weight * law.potential;
-      const PointShapes<Dim> shapes(e, q);
-      for (int k = 0; k < corner_count<Dim>; ++k) {
-        for (int c = 0; c < Dim; ++c) force[k][c] += weight * law.f * shapes.against(s, k, c);
-      }
-      if (!(work.elements.rheology[n].rigid_yield_stress > 0)) continue;
-      const RigidYield<Dim> rigid = work.rigid_yield(n, q, s);
-      potential += weight * rigid.potential;
-      gap += weight * rigid.gap;
-      for (int k = 0; k < corner_count<Dim>; ++k) {
-        for (int c = 0; c < Dim; ++c) force[k][c] += weight * shapes.against(rigid.stress, k, c);
+      if (work.elements.rheology[n].rigid_yield_stress > 0) {
+        const RigidYield<Dim> rigid = work.rigid_yield(n, q, s);
+        potential += weight * rigid.potential;
+        gap += weight * rigid.gap;
+        s = combination(weight * law.f, s, weight, rigid.stress);
+      } else {
+        s = combination(weight * law.f, s, 0, s);
       }
     }
+    double force[corner_count<Dim>][Dim] = {};
+    add_forces(e, rates, force);
     work.potential[n] = potential;
     work.gap[n] = gap;
     scatter(e, force, gradient);
@@ -204,31 +167,81 @@ void assemble_matrix(const Domain<Dim>& domain, const CellVectors<Dim>& u, doubl
     const DualElement<Dim> e = work.elements.mesh.element(n, index);
     double corner[corner_count<Dim>][Dim];
     gather(e, u, corner);
-    ElementMatrix<Dim> K = {};
+    StrainRate<Dim> rates[point_count<Dim>];
+    strain_rates(e, corner, rates);
+    ElementMatrix<Dim> K;
+    double viscosity[point_count<Dim>];  // times weight
+    const bool tangent = linearisation == Linearisation::tangent;
     for (int q = 0; q < point_count<Dim>; ++q) {
       const double weight = dt * work.elements.share[n] * e.weight(q);
-      if (!(weight > 0)) continue;
-      const StrainRate<Dim> s = strain_rate(e, q, corner);
+      const StrainRate<Dim>& s = rates[q];
       const LawValue law = evaluate(work.elements.rheology[n], s.scalar);
-      const PointShapes<Dim> shapes(e, q);
-      const bool tangent = linearisation == Linearisation::tangent;
-      double k = 0;
-      StrainRate<Dim> stress{};
+      viscosity[q] = weight * law.f;
       if (tangent && law.plastic > 0) {
-        stress = work.stress[n].at[q];
-        k = weight * plastic_coefficient(law.plastic, law.plastic_slope, s, stress);
+        const StrainRate<Dim>& stress = work.stress[n].at[q];
+        add_product(e, q, s, stress, weight * plastic_coefficient(law.plastic, law.plastic_slope, s, stress), K);
       }
-      add_point(shapes, s, stress, weight * law.f, k, K);
       const double thickening = law.slope - law.plastic_slope;
-      if (tangent && thickening > 0) add_point(shapes, s, s, 0, weight * thickening / s.scalar, K);
+      if (tangent && thickening > 0) add_product(e, q, s, s, weight * thickening / s.scalar, K);
       if (!(work.elements.rheology[n].rigid_yield_stress > 0)) continue;
       const RigidYield<Dim> rigid = work.rigid_yield(n, q, s);
-      k = tangent ? weight * plastic_coefficient(rigid.f, rigid.slope, rigid.driver, work.rigid_stress[n].at[q]) : 0.0;
-      add_point(shapes, rigid.driver, work.rigid_stress[n].at[q], weight * rigid.f, k, K);
+      viscosity[q] += weight * rigid.f;
+      if (!tangent) continue;
+      const StrainRate<Dim>& stress = work.rigid_stress[n].at[q];
+      add_product(e, q, rigid.driver, stress, weight * plastic_coefficient(rigid.f, rigid.slope, rigid.driver, stress),
+                  K);
     }
+    add_viscous(e, viscosity, K);
     scatter(e, K, table, matrix);
   });
   matrix.wrap_couplings();
+}
+
+template <int Dim>
+void apply_linear_stress(const Domain<Dim>& domain, const CellVectors<Dim>& v, double dt, DiffusionWork<Dim>& work,
+                         CellVectors<Dim>& y) {
+  const Box<Dim>& cells = work.matrix.box();
+  for (int d = 0; d < Dim; ++d) {
+    const CellField& mass = work.mass[d];
+    for_each<Cell>(domain.layout(), cells, [&](Cell c) { y[d][c] = (mass[c] > 0 ? mass[c] : 1.0) * v[d][c]; });
+  }
+  for_each_coloured<Node>(domain.layout(), elements_around(domain.grid, cells), [&](Node n, const Index<Dim>& index) {
+    if (!work.elements.active[n]) return;
+    const DualElement<Dim> e = work.elements.mesh.element(n, index);
+    double corner[corner_count<Dim>][Dim];
+    gather_change(e, v, corner);
+    StrainRate<Dim> rates[point_count<Dim>];
+    strain_rates(e, corner, rates);
+    const double factor = dt * work.elements.share[n] * work.elements.rheology[n].viscosity;
+    for (int q = 0; q < point_count<Dim>; ++q) rates[q] = combination(factor * e.weight(q), rates[q], 0, rates[q]);
+    double force[corner_count<Dim>][Dim] = {};
+    add_forces(e, rates, force);
+    scatter(e, force, y);
+  });
+}
+
+template <int Dim>
+void linear_stress_diagonal(const Domain<Dim>& domain, double dt, DiffusionWork<Dim>& work,
+                            CellVectors<Dim>& diagonal) {
+  const Box<Dim>& cells = work.matrix.box();
+  for (int d = 0; d < Dim; ++d) {
+    const CellField& mass = work.mass[d];
+    for_each<Cell>(domain.layout(), cells, [&](Cell c) { diagonal[d][c] = mass[c] > 0 ? mass[c] : 1.0; });
+  }
+  for_each_coloured<Node>(domain.layout(), elements_around(domain.grid, cells), [&](Node n, const Index<Dim>& index) {
+    if (!work.elements.active[n]) return;
+    const DualElement<Dim> e = work.elements.mesh.element(n, index);
+    ElementMatrix<Dim> K;
+    add_viscous(e, point_weights(e, dt * work.elements.share[n] * work.elements.rheology[n].viscosity).at, K);
+    for (int a = 0; a < corner_count<Dim>; ++a) {
+      for (int b = 0; b <= a; ++b) {
+        if (!(e.corner[a] == e.corner[b])) continue;  // two corners on the boundary may be one cell
+        for (int i = 0; i < Dim; ++i) {
+          diagonal[i][e.corner[a]] += (a == b ? 1 : 2) * e.factor[a][i] * e.factor[b][i] * K.at[a][b][i][i];
+        }
+      }
+    }
+  });
 }
 
 template <int Dim>
@@ -237,26 +250,31 @@ void update_plastic_stress(const Domain<Dim>& domain, const CellVectors<Dim>& u,
   const bool regularised = work.stress.size() > 0;
   const bool rigid = work.multiplier.size() > 0;
   if (!regularised && !rigid) return;
-  for_each_stress_point(domain, u, work, [&](Node n, const DualElement<Dim>& e, int q, const StrainRate<Dim>& s) {
+  for_each_stress_element(domain, u, work, [&](Node n, const DualElement<Dim>& e, const auto& rates) {
     const Rheology& rheology = work.elements.rheology[n];
     double change[corner_count<Dim>][Dim];
     gather_change(e, update, change);
-    const StrainRate<Dim> ds = strain_rate(e, q, change);
-    if (regularised) {
-      StrainRate<Dim>& stress = work.stress[n].at[q];
-      const LawValue law = evaluate(rheology, s.scalar);
-      if (law.plastic > 0) {
-        advance_stress(stress, s, ds, law.plastic, law.plastic_slope);
-        limit(stress, plastic_bound(rheology, std::max(s.scalar, add_scaled(s, -1, ds).scalar)));
-      } else {
-        stress = {};
+    StrainRate<Dim> changes[point_count<Dim>];
+    strain_rates(e, change, changes);
+    for (int q = 0; q < point_count<Dim>; ++q) {
+      const StrainRate<Dim>& s = rates[q];
+      const StrainRate<Dim>& ds = changes[q];
+      if (regularised) {
+        StrainRate<Dim>& stress = work.stress[n].at[q];
+        const LawValue law = evaluate(rheology, s.scalar);
+        if (law.plastic > 0) {
+          advance_stress(stress, s, ds, law.plastic, law.plastic_slope);
+          limit(stress, plastic_bound(rheology, std::max(s.scalar, add_scaled(s, -1, ds).scalar)));
+        } else {
+          stress = {};
+        }
       }
-    }
-    if (rigid && rheology.rigid_yield_stress > 0) {
-      const RigidYield<Dim> point = work.rigid_yield(n, q, s);
-      StrainRate<Dim>& stress = work.rigid_stress[n].at[q];
-      advance_stress(stress, point.driver, ds, point.f, point.slope);
-      limit(stress, rheology.rigid_yield_stress);
+      if (rigid && rheology.rigid_yield_stress > 0) {
+        const RigidYield<Dim> point = work.rigid_yield(n, q, s);
+        StrainRate<Dim>& stress = work.rigid_stress[n].at[q];
+        advance_stress(stress, point.driver, ds, point.f, point.slope);
+        limit(stress, rheology.rigid_yield_stress);
+      }
     }
   });
 }
@@ -275,11 +293,8 @@ NodeField dual_steps(const Domain<Dim>& domain, double dt, const DiffusionWork<D
   for_each_indexed<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
     if (!work.elements.active[n]) return;
     const DualElement<Dim> e = work.elements.mesh.element(n, index);
-    ElementMatrix<Dim> K = {};
-    for (int q = 0; q < point_count<Dim>; ++q) {
-      const double weight = dt * work.elements.share[n] * e.weight(q);
-      if (weight > 0) add_point<Dim>(PointShapes<Dim>(e, q), {}, {}, weight, 0, K);
-    }
+    ElementMatrix<Dim> K;
+    add_viscous(e, point_weights(e, dt * work.elements.share[n]).at, K);
     // Row sums of the scaled matrix bound its eigenvalues; the lower half of K stands for both.
     double rows[corner_count<Dim>][Dim] = {};
     const auto scale = [&](int k, int c) {
@@ -290,7 +305,7 @@ NodeField dual_steps(const Domain<Dim>& domain, double dt, const DiffusionWork<D
       for (int b = 0; b <= a; ++b) {
         for (int i = 0; i < Dim; ++i) {
           for (int j = 0; j < Dim; ++j) {
-            const double entry = std::abs(K[a][b][i][j]) * scale(a, i) * scale(b, j);
+            const double entry = std::abs(K.at[a][b][i][j]) * scale(a, i) * scale(b, j);
             rows[a][i] += entry;
             if (a != b) rows[b][j] += entry;
           }
@@ -311,6 +326,9 @@ NodeField dual_steps(const Domain<Dim>& domain, double dt, const DiffusionWork<D
                                                double, DiffusionWork<Dim>&, CellVectors<Dim>&);                      \
   template void assemble_matrix(const Domain<Dim>&, const CellVectors<Dim>&, double, Linearisation,                  \
                                 DiffusionWork<Dim>&);                                                                \
+  template void apply_linear_stress(const Domain<Dim>&, const CellVectors<Dim>&, double, DiffusionWork<Dim>&,        \
+                                    CellVectors<Dim>&);                                                              \
+  template void linear_stress_diagonal(const Domain<Dim>&, double, DiffusionWork<Dim>&, CellVectors<Dim>&);          \
   template void update_plastic_stress(const Domain<Dim>&, const CellVectors<Dim>&, const CellVectors<Dim>&,          \
                                       DiffusionWork<Dim>&);                                                          \
   template NodeField dual_steps(const Domain<Dim>&, double, const DiffusionWork<Dim>&);

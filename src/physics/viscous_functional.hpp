@@ -31,6 +31,16 @@ template <int Dim>
 void assemble_matrix(const Domain<Dim>& domain, const CellVectors<Dim>& u, double dt, Linearisation linearisation,
                      DiffusionWork<Dim>& work);
 
+/// y = A v, with A mass plus dt times the stress of laws that are linear (Newtonian): neither strain rates nor matrices
+/// are stored.
+template <int Dim>
+void apply_linear_stress(const Domain<Dim>& domain, const CellVectors<Dim>& v, double dt, DiffusionWork<Dim>& work,
+                         CellVectors<Dim>& y);
+
+/// The diagonal of that A, with 1 in cells without mass.
+template <int Dim>
+void linear_stress_diagonal(const Domain<Dim>& domain, double dt, DiffusionWork<Dim>& work, CellVectors<Dim>& diagonal);
+
 /// Plastic stresses after a Newton step from u to u - update, linearised about u and kept within the yield stress.
 /// Does nothing when no species yields.
 template <int Dim>
@@ -49,19 +59,30 @@ Box<Dim> elements_around(const Grid<Dim>& grid, Box<Dim> cells) {
   return intersect(cells, grid.nodes());
 }
 
-/// Calls body(node, element, q, Delta) for every stress point with weight, Delta the strain rate of velocities u, in
-/// threads over elements.
+/// Calls body(node, element, rates) for every active element, `rates` the strain rates of velocities u at its points,
+/// in threads over elements.
 template <int Dim, class Body>
-void for_each_stress_point(const Domain<Dim>& domain, const CellVectors<Dim>& u, DiffusionWork<Dim>& work,
-                           Body&& body) {
+void for_each_stress_element(const Domain<Dim>& domain, const CellVectors<Dim>& u, DiffusionWork<Dim>& work,
+                             Body&& body) {
   const Box<Dim> elements = elements_around(domain.grid, work.matrix.box());
   for_each_indexed<Node>(domain.layout(), elements, [&](Node n, const Index<Dim>& index) {
     if (!work.elements.active[n]) return;
     const DualElement<Dim> e = work.elements.mesh.element(n, index);
     double corner[corner_count<Dim>][Dim];
     gather(e, u, corner);
+    StrainRate<Dim> rates[point_count<Dim>];
+    strain_rates(e, corner, rates);
+    body(n, e, rates);
+  });
+}
+
+/// Calls body(node, element, q, Delta) for every stress point with weight.
+template <int Dim, class Body>
+void for_each_stress_point(const Domain<Dim>& domain, const CellVectors<Dim>& u, DiffusionWork<Dim>& work,
+                           Body&& body) {
+  for_each_stress_element(domain, u, work, [&](Node n, const DualElement<Dim>& e, const auto& rates) {
     for (int q = 0; q < point_count<Dim>; ++q) {
-      if (e.weight(q) > 0) body(n, e, q, strain_rate(e, q, corner));
+      if (e.weight(q) > 0) body(n, e, q, rates[q]);
     }
   });
 }

@@ -22,6 +22,10 @@ constexpr double blurred = 1e-10;
 constexpr double round_off = 1e-12;
 constexpr double negligible = 1e-8;
 
+/// Ratio of a linear system's diagonal to the mass, in the mean, up to which no more than the diagonal is needed before
+/// it.
+constexpr double stiff = 30;
+
 /// Decrease of the functional that would change the velocity by round-off only.
 template <int Dim>
 double least_drop(const ViscousProblem<Dim>& p) {
@@ -42,6 +46,7 @@ bool iterate_newton(const ViscousProblem<Dim>& p, int max_iterations, CellVector
   const Layout<Dim>& layout = p.domain.layout();
   ViscousProgress now = progress_at(p, u);
   double last_norm = now.norm;
+  const bool linear_laws = !work.has_nonlinear_law();
   for (int k = 0; now.norm > round_off * p.speed && !p.reached(now); ++k) {
     if (k == max_iterations) return false;
     assemble_matrix(p.domain, u, p.dt, Linearisation::tangent, work);
@@ -49,8 +54,9 @@ bool iterate_newton(const ViscousProblem<Dim>& p, int max_iterations, CellVector
     // Inexact Newton: as accurate as the quadratic convergence seen so far deserves.
     const double seen = now.norm / last_norm;
     const double forcing = k == 0 ? 1e-2 : std::clamp(0.5 * seen * seen, 1e-4, 1e-2);
-    const SolveReport linear = VelocitySolver<Dim>(work.matrix)
-                                   .solve(work.gradient, work.update, std::max(forcing, 0.1 * p.target / now.norm));
+    const double enough = (linear_laws ? 0.5 : 0.1) * p.target / now.norm;
+    const SolveReport linear =
+        VelocitySolver<Dim>(work.matrix).solve(work.gradient, work.update, std::max(linear_laws ? 0 : forcing, enough));
     report.linear_iterations += linear.iterations;
     ++report.iterations;
     const double descent = dot<Cell>(layout, work.matrix.box(), work.gradient, work.update);
@@ -164,6 +170,38 @@ ViscousProgress progress_at(const ViscousProblem<Dim>& p, const CellVectors<Dim>
 }
 
 template <int Dim>
+std::optional<double> solve_linear_stress(const ViscousProblem<Dim>& p, double start, CellVectors<Dim>& u,
+                                          DiffusionReport& report) {
+  DiffusionWork<Dim>& work = p.work;
+  const Layout<Dim>& layout = p.domain.layout();
+  const Box<Dim>& box = work.matrix.box();
+  CellVectors<Dim>& diagonal = work.trial;
+  linear_stress_diagonal(p.domain, p.dt, work, diagonal);
+  double inertia = 0;
+  double viscosity = 0;
+  for (int d = 0; d < Dim; ++d) {
+    inertia += sum<Cell>(layout, box, [&](Cell c) { return work.mass[d][c]; });
+    viscosity += sum<Cell>(layout, box, [&](Cell c) { return work.mass[d][c] > 0 ? diagonal[d][c] : 0.0; });
+  }
+  if (viscosity > stiff * inertia) return std::nullopt;
+  report.method = "conjugate gradients";
+  if (start <= p.target) return start;
+  const auto apply = [&](CellVectors<Dim>& v, CellVectors<Dim>& y) { apply_linear_stress(p.domain, v, p.dt, work, y); };
+  const auto precondition = [&](const CellVectors<Dim>& r, CellVectors<Dim>& z) {
+    for (int d = 0; d < Dim; ++d) for_each<Cell>(layout, box, [&](Cell c) { z[d][c] = r[d][c] / diagonal[d][c]; });
+  };
+  for (int d = 0; d < Dim; ++d) work.update[d].fill(0);
+  const SolveReport linear = conjugate_gradients<Cell>(
+      layout, box, apply, precondition, work.gradient, work.update, {.relative = 0, .absolute = p.target},
+      [&](const CellVectors<Dim>& r) { return gradient_norm(p.domain, work, r); });
+  report.linear_iterations = linear.iterations;
+  if (!linear.converged) return std::nullopt;
+  report.iterations = 1;
+  add_scaled(layout, box, u, -1.0, work.update, u);
+  return linear.residual * start;
+}
+
+template <int Dim>
 bool iterate(const ViscousProblem<Dim>& p, ViscousIteration method, int max_iterations, CellVectors<Dim>& u,
              DiffusionReport& report) {
   for (int d = 0; d < Dim; ++d) p.work.trial[d] = u[d];  // the iterations swap the two, and write the box only
@@ -177,10 +215,12 @@ bool iterate(const ViscousProblem<Dim>& p, ViscousIteration method, int max_iter
   return iterate_picard(p, 10 * max_iterations, accelerate, u, report);
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                       \
-  template double gradient_norm(const Domain<Dim>&, const DiffusionWork<Dim>&, const CellVectors<Dim>&); \
-  template double stress_energy(const ViscousProblem<Dim>&, const CellVectors<Dim>&);                    \
-  template ViscousProgress progress_at(const ViscousProblem<Dim>&, const CellVectors<Dim>&);             \
+#define QUICKSAND_INSTANTIATE(Dim)                                                                          \
+  template double gradient_norm(const Domain<Dim>&, const DiffusionWork<Dim>&, const CellVectors<Dim>&);    \
+  template double stress_energy(const ViscousProblem<Dim>&, const CellVectors<Dim>&);                       \
+  template ViscousProgress progress_at(const ViscousProblem<Dim>&, const CellVectors<Dim>&);                \
+  template std::optional<double> solve_linear_stress(const ViscousProblem<Dim>&, double, CellVectors<Dim>&, \
+                                                     DiffusionReport&);                                     \
   template bool iterate(const ViscousProblem<Dim>&, ViscousIteration, int, CellVectors<Dim>&, DiffusionReport&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)

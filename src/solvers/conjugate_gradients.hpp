@@ -56,9 +56,9 @@ template <class At, int Dim, class Vector>
 double dot(const Layout<Dim>& layout, const Box<Dim>& box, const Vector& x, const Vector& y) {
   double total = 0;
   for (int k = 0; k < part_count(x); ++k) {
-    const Field<At>& a = part(x, k);
-    const Field<At>& b = part(y, k);
-    total += sum<At>(layout, box, [&](At p) { return a[p] * b[p]; });
+    const double* const a = &part(x, k)[At{0}];
+    const double* const b = &part(y, k)[At{0}];
+    total += sum<At>(layout, box, [=](At p) { return a[p.n] * b[p.n]; });
   }
   return total;
 }

@@ -7,6 +7,7 @@
 #include <HYPRE_utilities.h>
 
 #include <array>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ class Session {
     int running = 0;
     MPI_Initialized(&running);
     if (running == 0) {
+      // Open MPI would start a daemon for this one process.
+      ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
       MPI_Init(nullptr, nullptr);
       owns_mpi_ = true;
     }

@@ -1,6 +1,5 @@
 #include "solvers/preconditioner.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,17 +7,23 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "solvers/banded_cholesky.hpp"
 #include "solvers/multigrid.hpp"
 
 namespace quicksand {
 
 namespace {
 
-/// Systems of up to so many points are factorised; in space, where factors fill in more, fewer. Measured: at 16 x 48
-/// points a factorisation takes half the time of CG with PFMG, at 32 x 96 a little more, and in space they meet at 8 x
-/// 8 x 8.
+/// Systems whose neighbours' numbers differ by so much at most are factorised, and those for which size times
+/// bandwidth^2 is small all the same.
+constexpr int widest_band = 64;
+constexpr double cheap_factors = 1e7;
+
 template <int Dim>
-constexpr std::ptrdiff_t largest_direct = Dim == 2 ? 1536 : 512;
+bool suits_factors(const BandOrder<Dim>& order) {
+  return order.bandwidth() <= widest_band ||
+         1.0 * order.size() * order.bandwidth() * order.bandwidth() <= cheap_factors;
+}
 
 /// Aspect ratio up to which relaxation by points suits a 9-point matrix.
 constexpr double largest_point_aspect = 1.6;
@@ -89,61 +94,34 @@ Anisotropy anisotropy(const StencilMatrix<Dim, At>& star) {
   return worst;
 }
 
-/// Whether at most one axis has more than one point: factors don't fill in.
-template <int Dim>
-bool is_line(const Box<Dim>& box) {
-  int longest = 0;
-  for (int d = 0; d < Dim; ++d) longest = std::max(longest, box.extent(d));
-  return box.size() == longest;
-}
-
-/// Calls body(p, number) for all points of the box, numbered one after the other.
-template <class At, int Dim, class Body>
-void for_each_numbered(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
-  const Rows<Dim> rows(layout, box);
-  int number = 0;
-  for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
-    for (int i = 0; i < rows.length; ++i) body(At{rows.start(r) + i}, number++);
-  }
-}
-
-/// Sparse Cholesky factors.
+/// Banded Cholesky factors.
 template <int Dim, class At>
 class Factors {
  public:
   explicit Factors(const StencilMatrix<Dim, At>& matrix)
-      : layout_(matrix.layout), box_(matrix.box), packed_(static_cast<Eigen::Index>(box_.size())) {
-    Field<At, int> number(layout_, -1);
-    for_each_numbered<At>(layout_, box_, [&](At p, int n) { number[p] = n; });
-    wrap(layout_, box_, number);
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(static_cast<std::size_t>(box_.size()) * (matrix.lower.size() + 1));
-    for_each_numbered<At>(layout_, box_, [&](At p, int n) {
-      entries.emplace_back(n, n, matrix.diagonal[p]);
+      : order_(matrix.layout, matrix.box), factors_(order_.size(), order_.bandwidth()) {
+    order_.template for_each<At>([&](At p, const Index<Dim>& i, int n) {
+      factors_.add(n, n, matrix.diagonal[p]);
       for (std::size_t e = 0; e < matrix.lower.size(); ++e) {
-        const int neighbour = number[p - matrix.steps[e]];
-        if (neighbour < 0 || matrix.lower[e][p] == 0) continue;
-        // Across the ends of a periodic axis the lower neighbour has the higher number.
-        entries.emplace_back(std::max(n, neighbour), std::min(n, neighbour), matrix.lower[e][p]);
+        if (matrix.lower[e][p] == 0) continue;
+        const int neighbour = order_.number(i + matrix.offsets[e]);
+        if (neighbour >= 0) factors_.add(n, neighbour, matrix.lower[e][p]);
       }
     });
-    Eigen::SparseMatrix<double> sparse(packed_.size(), packed_.size());
-    sparse.setFromTriplets(entries.begin(), entries.end());
-    factors_.compute(sparse);
-    if (factors_.info() != Eigen::Success) throw NumericalError("the sparse Cholesky factorisation failed");
+    if (!factors_.factorize()) throw NumericalError("the Cholesky factorisation failed");
   }
 
   void operator()(const Field<At>& r, Field<At>& z) {
-    for_each_numbered<At>(layout_, box_, [&](At p, int n) { packed_[n] = r[p]; });
-    packed_ = factors_.solve(packed_).eval();
-    for_each_numbered<At>(layout_, box_, [&](At p, int n) { z[p] = packed_[n]; });
+    packed_.resize(static_cast<std::size_t>(order_.size()));
+    order_.template for_each<At>([&](At p, const Index<Dim>&, int n) { packed_[static_cast<std::size_t>(n)] = r[p]; });
+    factors_.solve(packed_);
+    order_.template for_each<At>([&](At p, const Index<Dim>&, int n) { z[p] = packed_[static_cast<std::size_t>(n)]; });
   }
 
  private:
-  Layout<Dim> layout_;
-  Box<Dim> box_;
-  Eigen::VectorXd packed_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
+  BandOrder<Dim> order_;
+  BandedCholesky factors_;
+  std::vector<double> packed_;
 };
 
 /// One multigrid cycle.
@@ -179,7 +157,7 @@ class Diagonal {
 std::string_view name(Method method) {
   switch (method) {
     case Method::automatic: return "automatic";
-    case Method::direct: return "sparse Cholesky";
+    case Method::direct: return "banded Cholesky";
     case Method::pfmg: return "CG with PFMG";
     case Method::star_pfmg: return "CG with PFMG of the star part";
     case Method::smg: return "CG with SMG";
@@ -194,7 +172,7 @@ std::string_view name(Method method) {
 /// cost.
 template <int Dim, class At>
 Method choose_method(const StencilMatrix<Dim, At>& matrix) {
-  if (matrix.box.size() <= largest_direct<Dim> || is_line(matrix.box)) return Method::direct;
+  if (suits_factors(BandOrder<Dim>(matrix.layout, matrix.box))) return Method::direct;
   const bool star = matrix.stencil == Stencil::star;
   const Anisotropy shape = anisotropy(star ? matrix : star_part(matrix));
   if (shape.grading > largest_pfmg_grading<Dim>) return Method::smg;

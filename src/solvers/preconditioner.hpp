@@ -11,7 +11,7 @@ namespace quicksand {
 /// Ways to solve a stencil matrix. `automatic` chooses by size, stencil and grading.
 enum class Method {
   automatic,
-  direct,     ///< sparse Cholesky factorisation; for small systems
+  direct,     ///< banded Cholesky factorisation; for small and slender boxes
   pfmg,       ///< CG + PFMG
   star_pfmg,  ///< CG + PFMG of the star_part(); for 9/27-point matrices
   smg,        ///< CG + SMG

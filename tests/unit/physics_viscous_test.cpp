@@ -133,6 +133,23 @@ TEST(PhysicsViscous, MatrixIsTheDerivativeOfTheGradientForNewtonianLiquids) {
   });
 }
 
+TEST(PhysicsViscous, LinearStressWithoutAMatrixIsTheMatrix) {
+  in_every_geometry(newtonian, [](auto setup) {
+    auto v = setup.rough(7);
+    assemble_matrix(setup.domain, v, dt, Linearisation::secant, setup.work);
+    const auto expected = setup.times_matrix(v);
+    auto y = v;
+    apply_linear_stress(setup.domain, v, dt, setup.work, y);
+    EXPECT_LE(setup.size(setup.combination(y, -1, expected)), 1e-13 * setup.size(expected));
+    auto diagonal = v;
+    linear_stress_diagonal(setup.domain, dt, setup.work, diagonal);
+    for (std::size_t d = 0; d < v.component.size(); ++d) {
+      const int e = static_cast<int>(d);
+      EXPECT_LE(testing::largest_difference(setup.domain.grid, diagonal[e], setup.work.matrix.centre(e, e)), 1e-13);
+    }
+  });
+}
+
 TEST(PhysicsViscous, SecantMatrixGivesTheStressItself) {
   // M(u) (u - u^) is the gradient less what u^ itself is strained by: with u^ = 0 the two agree.
   in_every_geometry(bingham, [](auto setup) {

@@ -1,0 +1,71 @@
+// Banded Cholesky factors against the matrix they were made of, and the numbering that keeps bands narrow.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "solvers/banded_cholesky.hpp"
+#include "support/grids.hpp"
+
+namespace quicksand {
+namespace {
+
+/// A rough matrix of the given band whose diagonal dominates.
+double entry(int row, int column, int bandwidth) {
+  if (row == column) return 2.0 * bandwidth + 1.5;
+  return std::abs(row - column) <= bandwidth ? testing::rough(Index<1>{{row + column}}, std::abs(row - column)) : 0.0;
+}
+
+TEST(BandedCholesky, SolvesToRoundOff) {
+  for (const auto& [size, bandwidth] : {std::pair{1, 0}, std::pair{7, 3}, std::pair{40, 11}, std::pair{5, 9}}) {
+    BandedCholesky factors(size, bandwidth);
+    for (int i = 0; i < size; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        if (i - j <= bandwidth) factors.add(i, j, entry(i, j, bandwidth));
+      }
+    }
+    ASSERT_TRUE(factors.factorize());
+    std::vector<double> b;
+    for (int i = 0; i < size; ++i) b.push_back(std::sin(i + 1.0));
+    std::vector<double> x = b;
+    factors.solve(x);
+    ASSERT_EQ(x.size(), b.size());
+    for (int i = 0; i < size; ++i) {
+      double product = 0;
+      for (int j = 0; j < size; ++j) product += entry(i, j, bandwidth) * x[static_cast<std::size_t>(j)];
+      EXPECT_NEAR(product, b[static_cast<std::size_t>(i)], 1e-13);
+    }
+  }
+}
+
+TEST(BandedCholesky, RefusesWhatIsNotPositiveDefinite) {
+  BandedCholesky factors(2, 1);
+  factors.add(0, 0, 1);
+  factors.add(1, 1, 1);
+  factors.add(1, 0, 2);
+  EXPECT_FALSE(factors.factorize());
+}
+
+TEST(BandOrder, NumbersEveryPointOnceAndKeepsNeighboursNear) {
+  for (const bool periodic : {false, true}) {
+    const Layout<2> layout(Index<2>{{9, 4}}, AxisFlags<2>{{periodic, periodic}});
+    const Box<2> box{Index<2>{}, layout.cells()};
+    const BandOrder<2> order(layout, box);
+    EXPECT_LE(order.bandwidth(), periodic ? 2 * 4 + 2 : 4 + 1);
+    std::set<int> numbers;
+    order.for_each<Cell>([&](Cell, const Index<2>& i, int n) {
+      numbers.insert(n);
+      for (int k = 0; k < 9; ++k) {
+        const int other = order.number(i + Index<2>{{k % 3 - 1, k / 3 - 1}});
+        EXPECT_LE(other < 0 ? 0 : std::abs(other - n), order.bandwidth());
+        EXPECT_TRUE(other >= 0 || !periodic);
+      }
+    });
+    EXPECT_EQ(numbers.size(), 36u);
+    EXPECT_EQ(*numbers.rbegin(), 35);
+  }
+}
+
+}  // namespace
+}  // namespace quicksand
