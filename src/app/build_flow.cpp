@@ -71,14 +71,21 @@ void cut_bubbles(const CaseConfig& config, Flow<Dim>& flow) {
 }  // namespace
 
 template <int Dim>
+Flow<Dim> empty_flow(const CaseConfig& config, const Grid<Dim>& grid) {
+  return {Domain<Dim>(grid, make_sides<Dim>(config)), parameters_of<Dim>(config)};
+}
+
+template <int Dim>
 Flow<Dim> build_flow(const CaseConfig& config) {
-  Flow<Dim> flow(Domain<Dim>(make_grid<Dim>(config.grid), make_sides<Dim>(config)), parameters_of<Dim>(config));
+  Flow<Dim> flow = empty_flow<Dim>(config, make_grid<Dim>(config.grid));
   fill_shapes(config, flow);
   cut_bubbles(config, flow);
   flow.initialize();
   return flow;
 }
 
+template Flow<2> empty_flow<2>(const CaseConfig&, const Grid<2>&);
+template Flow<3> empty_flow<3>(const CaseConfig&, const Grid<3>&);
 template Flow<2> build_flow<2>(const CaseConfig&);
 template Flow<3> build_flow<3>(const CaseConfig&);
 

@@ -12,4 +12,8 @@ namespace quicksand {
 template <int Dim>
 Flow<Dim> build_flow(const CaseConfig& config);
 
+/// A flow of a case on a grid, without anything in it. \pre config.grid.dimension == Dim
+template <int Dim>
+Flow<Dim> empty_flow(const CaseConfig& config, const Grid<Dim>& grid);
+
 }  // namespace quicksand

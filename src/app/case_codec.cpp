@@ -283,19 +283,6 @@ Codec<SolverSettings> solver_codec() {
   });
 }
 
-Codec<OutputSettings> output_codec() {
-  const auto schedule = object<OutputSchedule>({
-      maybe("every", &OutputSchedule::every, quantity(dim::time, positive), "interval (or give times)"),
-      maybe("times", &OutputSchedule::times, list_of(quantity(dim::time, not_negative), 1),
-            "increasing list of times (or give every)"),
-  });
-  return object<OutputSettings>({
-      defaulted("directory", &OutputSettings::directory, text(), "folder of the results"),
-      defaulted("fields", &OutputSettings::fields, schedule, "when fields are written; neither key: start and end"),
-      defaulted("history", &OutputSettings::history, flag(), "whether history.csv is written"),
-  });
-}
-
 Codec<CaseConfig> make_case_codec() {
   return object<CaseConfig>({
       required("title", &CaseConfig::title, text(), "what the case is"),

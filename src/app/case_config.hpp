@@ -90,9 +90,16 @@ struct OutputSchedule {
   std::vector<double> times;
 };
 
+/// When checkpoints are written: whichever comes first, after a step. They do not change the steps.
+struct CheckpointSettings {
+  std::optional<double> every;  ///< in the flow's time; with it checkpoints outlast the run
+  double wall_interval = 900;   ///< seconds on the wall
+};
+
 struct OutputSettings {
   std::string directory = "results";
   OutputSchedule fields;
+  CheckpointSettings checkpoint;
   bool history = true;
 };
 

@@ -56,11 +56,13 @@ CellField cell_pressure(const Grid<Dim>& grid, const NodeField& pressure) {
 }  // namespace
 
 template <int Dim>
-ResultWriter<Dim>::ResultWriter(const CaseConfig& config, std::filesystem::path folder)
+ResultWriter<Dim>::ResultWriter(const CaseConfig& config, std::filesystem::path folder,
+                                std::optional<std::int64_t> last_step)
     : config_(config), folder_(std::move(folder)), series_(folder_) {
   write_text_file(folder_ / "case.yaml", to_yaml(config));
-  if (config.output.history) history_.emplace(folder_ / "history.csv", history_columns(config));
-  if (config.output.history && (!config.bubbles.empty() || config.trapped_gas.adiabatic)) bubbles_.emplace(folder_);
+  if (!config.output.history) return;
+  history_.emplace(folder_ / "history.csv", history_columns(config), last_step);
+  if (!config.bubbles.empty() || config.trapped_gas.adiabatic) bubbles_.emplace(folder_, last_step);
 }
 
 template <int Dim>
@@ -139,6 +141,12 @@ void ResultWriter<Dim>::append_history(const Flow<Dim>& flow, const Diagnostics&
                            static_cast<double>(report.projection.iterations)});
   history_->append(line);
   if (bubbles_) bubbles_->append(state, bubbles, report.gas, full_circle(flow.domain().grid));
+}
+
+template <int Dim>
+void ResultWriter<Dim>::sync() const {
+  if (history_) history_->sync();
+  if (bubbles_) bubbles_->sync();
 }
 
 template <int Dim>

@@ -18,8 +18,9 @@ namespace quicksand {
 template <int Dim>
 class ResultWriter {
  public:
+  /// \param last_step  the step that a run goes on from: tables keep their lines up to it; none: a new run
   /// \throws FileError
-  ResultWriter(const CaseConfig& config, std::filesystem::path folder);
+  ResultWriter(const CaseConfig& config, std::filesystem::path folder, std::optional<std::int64_t> last_step = {});
 
   /// Field file of the current state; returns its path. \throws FileError
   std::filesystem::path write_fields(const Flow<Dim>& flow);
@@ -27,6 +28,8 @@ class ResultWriter {
   std::filesystem::path write_failed_state(const Flow<Dim>& flow);
   /// One line of `history.csv`, and those of `bubbles.csv` and `events.csv`. \throws FileError
   void append_history(const Flow<Dim>& flow, const Diagnostics& diagnostics, const StepReport& report);
+  /// Brings the tables safely to the disk: before a checkpoint, which counts on them. \throws FileError
+  void sync() const;
   /// `summary.json`. \throws FileError
   void write_summary(const Json& summary);
 

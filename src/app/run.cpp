@@ -3,13 +3,15 @@
 #include <cmath>
 #include <filesystem>
 #include <new>
+#include <optional>
 
 #include "app/build_flow.hpp"
+#include "app/checkpoint_schedule.hpp"
+#include "app/checkpoints.hpp"
 #include "app/interrupt.hpp"
+#include "app/output_folder.hpp"
 #include "app/progress.hpp"
 #include "app/result_writer.hpp"
-#include "app/run_statistics.hpp"
-#include "app/time_control.hpp"
 #include "core/errors.hpp"
 #include "core/threads.hpp"
 #include "physics/energy.hpp"
@@ -51,12 +53,10 @@ double energy_scale(const Flow<Dim>& flow) {
 template <int Dim>
 struct Run {
   const CaseConfig& config;
-  ResultWriter<Dim> writer;
+  RunMemory memory;
   TimeControl control;
-  SteadyState steady;
-  bool is_steady = false;
-  RunStatistics statistics;
-  Progress progress;
+  ResultWriter<Dim> writer;
+  Progress& progress;
 };
 
 /// Advances by at most dt: a failed step is tried again with half of it. \throws NumericalError when all tries fail
@@ -74,7 +74,7 @@ StepReport advance_with_retries(Flow<Dim>& flow, double dt, Run<Dim>& run) {
       }
       run.progress.say("step " + std::to_string(flow.state().step + 1) + ": " + error.what() +
                        "; trying again with dt " + number_text(dt));
-      run.statistics.count_retry();
+      run.memory.statistics.count_retry();
     }
   }
 }
@@ -90,13 +90,13 @@ bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
   const State<Dim>& state = flow.state();
   const double stable = stable_step(flow, run.control.cfl());
   const StepReport report = advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable), run);
-  if (run.control.beyond_limit(state.dt, stable) && run.statistics.count_step_beyond_cfl() == 1) {
+  if (run.control.beyond_limit(state.dt, stable) && run.memory.statistics.count_step_beyond_cfl() == 1) {
     run.progress.say("warning: step " + std::to_string(state.step) + ": dt " + number_text(state.dt) +
                      " exceeds the CFL limit of convection, " + number_text(stable) +
                      "; further such steps are only counted, in summary.json");
   }
-  run.statistics.add(report, volumes_with_escaped(flow), state.time);
-  run.is_steady = run.steady.reached(report, state.time);
+  run.memory.statistics.add(report, volumes_with_escaped(flow), state.time);
+  run.memory.is_steady = run.memory.steady.reached(report, state.time);
   run.writer.append_history(flow, diagnose(flow), report);
   for (const GasEvent& event : report.gas) {
     run.progress.say(event_text(event, state.time, full_circle(flow.domain().grid)));
@@ -109,35 +109,62 @@ bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
 
 template <int Dim>
 bool is_over(const Flow<Dim>& flow, const Run<Dim>& run) {
-  return run.is_steady || run.control.finished(flow.state().time);
+  return run.memory.is_steady || run.control.finished(flow.state().time);
+}
+
+template <int Dim>
+void write_checkpoint(Flow<Dim>& flow, Run<Dim>& run, bool fields_due) {
+  run.writer.sync();
+  const std::filesystem::path file =
+      quicksand::write_checkpoint(run.config.output.directory, run.config, fields_due, run.memory, flow);
+  run.progress.wrote(flow.state().time, flow.state().step, file.string());
+}
+
+/// The flow at the start of the run, its first results written, or as the checkpoint has it.
+template <int Dim>
+Flow<Dim> begin(Run<Dim>& run, const ResumePoint* resume) {
+  if (resume != nullptr) {
+    Flow<Dim> flow = read_checkpoint<Dim>(*resume->reader, run.config, run.memory);
+    run.control.output_due(flow.state().time);
+    run.progress.say("resumed from " + resume->reader->path().string());
+    return flow;
+  }
+  Flow<Dim> flow = build_flow<Dim>(run.config);
+  run.memory.statistics.start(volumes_with_escaped(flow), energy_scale(flow));
+  run.control.output_due(0);
+  write_fields(flow, run);
+  run.writer.append_history(flow, diagnose(flow), StepReport{});
+  return flow;
 }
 
 /// Takes all steps, or as many as the user lets it. \return whether the end was reached
 template <int Dim>
-bool march(Run<Dim>& run) {
-  Flow<Dim> flow = build_flow<Dim>(run.config);
-  run.statistics.start(volumes_with_escaped(flow), energy_scale(flow));
-  run.control.output_due(0);
-  write_fields(flow, run);
-  run.writer.append_history(flow, diagnose(flow), StepReport{});
-  bool written = true;
+bool march(Run<Dim>& run, const ResumePoint* resume) {
+  Flow<Dim> flow = begin(run, resume);
+  CheckpointSchedule checkpoints(run.config.output.checkpoint, flow.state().time);
+  bool fields_due = resume == nullptr || resume->head.fields_due;
   try {
-    while (!is_over(flow, run) && interrupt_signal() == 0) written = take_step(flow, run);
+    while (!is_over(flow, run) && interrupt_signal() == 0) {
+      fields_due = take_step(flow, run);
+      if (checkpoints.due(flow.state().time)) write_checkpoint(flow, run, fields_due);
+    }
   } catch (const NumericalError& error) {
     const std::filesystem::path file = run.writer.write_failed_state(flow);
     throw NumericalError("step " + std::to_string(flow.state().step + 1) + " at time " +
                          number_text(flow.state().time) + ": " + error.what() + "; the state before it is in " +
                          file.string());
   }
-  if (!written) write_fields(flow, run);
-  return is_over(flow, run);
+  if (!fields_due) write_fields(flow, run);
+  const bool over = is_over(flow, run);
+  if (!over || run.config.output.checkpoint.every) write_checkpoint(flow, run, fields_due);
+  return over;
 }
 
 /// Leaves a summary of a run that is about to end with an error, if it can still be written.
 template <int Dim>
 void summarize_failure(Run<Dim>& run, const std::string& message) {
   try {
-    run.writer.write_summary(run.statistics.summary("failed", message));
+    run.writer.write_summary(run.memory.statistics.summary("failed", message));
   } catch (const FileError&) {
     // The error that ended the run is the one to report.
   }
@@ -145,8 +172,8 @@ void summarize_failure(Run<Dim>& run, const std::string& message) {
 
 template <int Dim>
 std::string steadiness_text(const Run<Dim>& run) {
-  return std::string(run.is_steady ? "the flow is steady" : "warning: the flow is not steady yet") +
-         ", time |du/dt| / max |u| = " + number_text(run.steady.unsteadiness());
+  return std::string(run.memory.is_steady ? "the flow is steady" : "warning: the flow is not steady yet") +
+         ", time |du/dt| / max |u| = " + number_text(run.memory.steady.unsteadiness());
 }
 
 template <int Dim>
@@ -155,16 +182,20 @@ int run_in(const CaseConfig& config, const RunOptions& options) {
   const long cells = static_cast<long>(count_cells(config.grid));
   std::vector<std::string> species;
   for (const Species& s : config.species) species.push_back(s.name);
+  Progress progress(config.time.end, cells, options.quiet);
+  std::optional<ResumePoint> resume;
+  if (options.resume) {
+    resume = find_resume_point(folder, config, [&](const std::string& text) { progress.say(text); });
+    rewind_output_folder(folder, resume->head.step, resume->head.fields_due);
+  }
   Run<Dim> run{config,
-               ResultWriter<Dim>(config, folder),
+               {SteadyState(config.time.until_steady), false, RunStatistics(species, cells)},
                TimeControl(config.time, config.output.fields),
-               SteadyState(config.time.until_steady),
-               false,
-               RunStatistics(species, cells),
-               Progress(config.time.end, cells, options.quiet)};
+               ResultWriter<Dim>(config, folder, resume ? std::optional(resume->head.step) : std::nullopt),
+               progress};
   bool finished = false;
   try {
-    finished = march(run);
+    finished = march(run, resume ? &*resume : nullptr);
   } catch (const std::bad_alloc&) {
     summarize_failure(run, "out of memory");
     throw;
@@ -172,14 +203,16 @@ int run_in(const CaseConfig& config, const RunOptions& options) {
     summarize_failure(run, error.what());
     throw;
   }
-  if (run.steady.wanted()) {
-    run.statistics.note_steadiness(run.is_steady, run.steady.unsteadiness());
+  if (run.memory.steady.wanted()) {
+    run.memory.statistics.note_steadiness(run.memory.is_steady, run.memory.steady.unsteadiness());
     if (finished) run.progress.say(steadiness_text(run));
   }
   const std::string status = finished ? "finished" : "interrupted";
   run.writer.write_summary(
-      run.statistics.summary(status, finished ? "" : "by signal " + std::to_string(interrupt_signal())));
-  run.progress.say(status + " after " + std::to_string(run.statistics.steps()) + " steps; results in " + folder);
+      run.memory.statistics.summary(status, finished ? "" : "by signal " + std::to_string(interrupt_signal())));
+  // Without an interval they are there for interruptions only.
+  if (finished && !config.output.checkpoint.every) remove_checkpoints(folder);
+  run.progress.say(status + " after " + std::to_string(run.memory.statistics.steps()) + " steps; results in " + folder);
   return finished ? 0 : 128 + interrupt_signal();
 }
 

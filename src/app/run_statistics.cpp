@@ -64,8 +64,40 @@ void RunStatistics::add(const StepReport& report, const std::vector<double>& vol
   largest_gap_ = std::max(largest_gap_, report.diffusion.gap);
 }
 
+double RunStatistics::wall_seconds() const {
+  return earlier_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void RunStatistics::exchange(Archive& archive) {
+  double wall = wall_seconds();
+  carry(archive, "statistics/wall_seconds", wall);
+  carry(archive, "statistics/resumptions", resumptions_);
+  if (archive.loading()) {
+    start_ = std::chrono::steady_clock::now();
+    earlier_seconds_ = wall;
+    ++resumptions_;
+  }
+  carry(archive, "statistics/steps", steps_);
+  carry(archive, "statistics/time", time_);
+  carry(archive, "statistics/retries", retries_);
+  carry(archive, "statistics/steps_beyond_cfl", steps_beyond_cfl_);
+  carry(archive, "statistics/fallbacks", fallbacks_);
+  carry(archive, "statistics/stagnated", stagnated_);
+  carry(archive, "statistics/largest_gap", largest_gap_);
+  initial_volume_.resize(species_.size());
+  carry_numbers(archive, "statistics/initial_volume", initial_volume_);
+  carry_numbers(archive, "statistics/volume_error", volume_error_);
+  carry(archive, "statistics/energy_scale", energy_scale_);
+  carry(archive, "statistics/redistribution_rise", redistribution_rise_);
+  carry(archive, "statistics/projection_rise", projection_rise_);
+  carry_numbers(archive, "statistics/seconds", seconds_);
+  carry_numbers(archive, "statistics/iterations", iterations_);
+  carry_numbers(archive, "statistics/most_iterations", most_iterations_);
+  carry(archive, "statistics/linear_iterations", linear_iterations_);
+}
+
 Json RunStatistics::summary(const std::string& status, const std::string& message) const {
-  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double wall = wall_seconds();
   Json json;
   json["status"] = status;
   if (!message.empty()) json["message"] = message;
@@ -75,6 +107,7 @@ Json RunStatistics::summary(const std::string& status, const std::string& messag
     json["steady"] = steadiness_->first;
     json["unsteadiness"] = steadiness_->second;
   }
+  json["resumptions"] = resumptions_;
   json["retried_steps"] = retries_;
   json["steps_beyond_cfl"] = steps_beyond_cfl_;
   json["cells"] = cells_;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/archive.hpp"
 #include "core/text_output.hpp"
 #include "physics/diagnostics.hpp"
 #include "physics/flow.hpp"
@@ -39,12 +40,18 @@ class RunStatistics {
   void note_steadiness(bool steady, double unsteadiness) { steadiness_ = {steady, unsteadiness}; }
 
   long steps() const { return steps_; }
+  /// Hands everything over, the time on the wall so far included.
+  void exchange(Archive& archive);
 
   /// The document of `summary.json`.
   Json summary(const std::string& status, const std::string& message) const;
 
  private:
+  double wall_seconds() const;
+
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double earlier_seconds_ = 0;  ///< on the wall, before the run was resumed
+  long resumptions_ = 0;
   std::vector<std::string> species_;
   long cells_;
   long steps_ = 0;

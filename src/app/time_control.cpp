@@ -29,6 +29,11 @@ bool SteadyState::reached(const StepReport& report, double time) {
   return tolerance_ && unsteadiness_ <= *tolerance_;
 }
 
+void SteadyState::exchange(Archive& archive) {
+  carry(archive, "steady/largest_norm", largest_norm_);
+  carry(archive, "steady/unsteadiness", unsteadiness_);
+}
+
 TimeControl::TimeControl(const TimeSettings& time, const OutputSchedule& fields) : time_(time), fields_(fields) {}
 
 double TimeControl::next_output() const {

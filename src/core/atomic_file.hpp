@@ -30,6 +30,9 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+/// Brings what was written to a file, or the names in a folder, safely to the disk. \throws FileError
+void flush_to_disk(const std::filesystem::path& path);
+
 /// Writes a small text file in one go, complete or not at all.
 /// \throws FileError with path and reason
 void write_text_file(const std::filesystem::path& path, std::string_view text);

@@ -115,10 +115,13 @@ std::size_t count(const Extents& extents) {
 
 // Writer
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, int compression) : file_(path), compression_(compression) {
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, int compression, std::size_t front)
+    : file_(path), compression_(compression) {
   assert(compression >= 0 && compression <= 9);
   silence_library();
-  id_ = checked(H5Fcreate(file_.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access_properties().get()), path,
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  checked(H5Pset_userblock(creation.get(), front), path, "create the file");
+  id_ = checked(H5Fcreate(file_.temporary().c_str(), H5F_ACC_TRUNC, creation.get(), access_properties().get()), path,
                 "create the file");
 }
 
@@ -137,6 +140,8 @@ void Hdf5Writer::write_raw(const std::string& name, const void* values, std::siz
   const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   checked(H5Pset_create_intermediate_group(links.get(), 1), file_.path(), what);
+  // Without times the same values make the same file.
+  checked(H5Pset_obj_track_times(creation.get(), false), file_.path(), what);
   if (compression_ > 0 && !dims.empty() && size > 0) {
     const auto chunk = chunk_extents(extents, H5Tget_size(type));
     checked(H5Pset_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data()), file_.path(), what);
@@ -185,9 +190,10 @@ void Hdf5Writer::attribute(const std::string& name, const std::string& value, co
   attribute_raw(name, value.c_str(), text_type(value.size()).get(), object);
 }
 
+void Hdf5Writer::close() { checked(H5Fclose(std::exchange(id_, -1)), file_.path(), "close the file"); }
+
 void Hdf5Writer::commit() {
-  assert(id_ >= 0);
-  checked(H5Fclose(std::exchange(id_, -1)), file_.path(), "close the file");
+  if (id_ >= 0) close();
   file_.commit();
 }
 

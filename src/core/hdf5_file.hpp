@@ -29,7 +29,8 @@ class Hdf5Writer {
  public:
   /// \param compression  0 (none) ... 9 (smallest): deflate level of the datasets that follow, after shuffling the
   /// bytes
-  explicit Hdf5Writer(const std::filesystem::path& path, int compression = 0);
+  /// \param front  bytes kept free in front of what HDF5 writes: 0, or 512 times a power of two
+  explicit Hdf5Writer(const std::filesystem::path& path, int compression = 0, std::size_t front = 0);
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
@@ -47,7 +48,10 @@ class Hdf5Writer {
   void attribute(const std::string& name, std::int64_t value, const std::string& object = "/");
   void attribute(const std::string& name, const std::string& value, const std::string& object = "/");
 
-  /// Closes the file and gives it its final name. Nothing may be written after.
+  /// Closes the file, which stands under its temporary name until commit(). Nothing may be written after.
+  void close();
+  const std::filesystem::path& temporary() const { return file_.temporary(); }
+  /// Closes the file, if it is not yet, and gives it its final name.
   void commit();
 
  private:

@@ -96,11 +96,9 @@ std::string xdmf_text(const std::vector<XdmfEntry>& entries) {
   return out + "    </Grid>\n  </Domain>\n</Xdmf>\n";
 }
 
-XdmfSeries::XdmfSeries(std::filesystem::path folder, std::int64_t last_step) : folder_(std::move(folder)) {
+XdmfSeries::XdmfSeries(std::filesystem::path folder) : folder_(std::move(folder)) {
   for (const auto& item : std::filesystem::directory_iterator(folder_)) {
-    if (!is_field_file(item.path())) continue;
-    const XdmfEntry entry = xdmf_entry(item.path());
-    if (entry.step <= last_step) insert(entry);
+    if (is_field_file(item.path())) insert(xdmf_entry(item.path()));
   }
 }
 
