@@ -112,7 +112,7 @@ Flow<Dim> read_checkpoint(CheckpointReader& reader, const CaseConfig& config, Ru
   return flow;
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                    \
+#define QUICKSAND_INSTANTIATE(Dim)                                                                      \
   template fs::path write_checkpoint(const fs::path&, const CaseConfig&, bool, RunMemory&, Flow<Dim>&); \
   template Flow<Dim> read_checkpoint(CheckpointReader&, const CaseConfig&, RunMemory&);
 QUICKSAND_INSTANTIATE(2)

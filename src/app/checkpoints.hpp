@@ -14,8 +14,8 @@ namespace quicksand {
 
 /// What a checkpoint tells about itself before anything is built from it.
 struct CheckpointHead {
-  std::string case_text;    ///< the effective case, YAML
-  long step = 0;            ///< steps taken
+  std::string case_text;  ///< the effective case, YAML
+  long step = 0;          ///< steps taken
   double time = 0;
   bool fields_due = false;  ///< whether the fields of that step are on schedule, so belong to the results
 

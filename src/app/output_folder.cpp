@@ -17,9 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Whether the file was left half written, see AtomicFile.
-bool is_part(const fs::path& file) {
-  return file.extension() == ".part" && file.filename().string().starts_with('.');
-}
+bool is_part(const fs::path& file) { return file.extension() == ".part" && file.filename().string().starts_with('.'); }
 
 /// Whether a run writes files of that name.
 bool is_result(const fs::path& file) {

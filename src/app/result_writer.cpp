@@ -60,6 +60,7 @@ ResultWriter<Dim>::ResultWriter(const CaseConfig& config, std::filesystem::path 
                                 std::optional<std::int64_t> last_step)
     : config_(config), folder_(std::move(folder)), series_(folder_) {
   write_text_file(folder_ / "case.yaml", to_yaml(config));
+  if (last_step) series_.write();
   if (!config.output.history) return;
   history_.emplace(folder_ / "history.csv", history_columns(config), last_step);
   if (!config.bubbles.empty() || config.trapped_gas.adiabatic) bubbles_.emplace(folder_, last_step);

@@ -39,7 +39,7 @@ using Stored = std::conditional_t<std::is_integral_v<T>, std::int64_t, double>;
 
 /// A single number or flag.
 template <class T>
-  requires std::is_arithmetic_v<T>
+requires std::is_arithmetic_v<T>
 void carry(Archive& archive, const std::string& name, T& value) {
   std::vector<Stored<T>> stored{static_cast<Stored<T>>(value)};
   archive.exchange(name, stored);
@@ -60,7 +60,7 @@ void carry(Archive& archive, const std::string& name, std::vector<S>& items, T S
 
 /// A list or array of numbers whose length is known.
 template <class Numbers>
-  requires std::is_arithmetic_v<typename Numbers::value_type>
+requires std::is_arithmetic_v<typename Numbers::value_type>
 void carry_numbers(Archive& archive, const std::string& name, Numbers& numbers) {
   using T = typename Numbers::value_type;
   std::vector<Stored<T>> stored(numbers.begin(), numbers.end());

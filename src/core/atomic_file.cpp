@@ -70,17 +70,21 @@ void AtomicFile::commit() {
   flush_to_disk(folder_of(path_));
 }
 
-void write_text_file(const std::filesystem::path& path, std::string_view text) {
+void write_file(const std::filesystem::path& path, std::initializer_list<std::string_view> parts) {
   AtomicFile file(path);
   Descriptor out(file.temporary(), O_WRONLY | O_CREAT | O_TRUNC);
-  while (!text.empty()) {
-    const ssize_t written = ::write(out.get(), text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(path, "cannot write", errno);
-    text.remove_prefix(static_cast<std::size_t>(written));
+  for (std::string_view part : parts) {
+    while (!part.empty()) {
+      const ssize_t written = ::write(out.get(), part.data(), part.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(path, "cannot write", errno);
+      part.remove_prefix(static_cast<std::size_t>(written));
+    }
   }
   if (out.close() != 0) fail(path, "cannot write", errno);
   file.commit();
 }
+
+void write_text_file(const std::filesystem::path& path, std::string_view text) { write_file(path, {text}); }
 
 }  // namespace quicksand

@@ -1,6 +1,6 @@
 #include "core/checkpoint.hpp"
 
-#include <span>
+#include <string_view>
 
 #include "core/errors.hpp"
 #include "core/seal.hpp"
@@ -43,9 +43,7 @@ void CheckpointWriter::exchange(const std::string& name, std::string& text) {
 void CheckpointWriter::refuse(const std::string& name, const std::string& why) const { refuse_value(path_, name, why); }
 
 void CheckpointWriter::commit() {
-  file_.close();
-  write_seal(file_.temporary(), format);
-  file_.commit();
+  file_.commit([](std::string_view content) { return make_seal(format, content); });
 }
 
 CheckpointReader::CheckpointReader(const std::filesystem::path& path) : file_(checked(path)) {}

@@ -1,9 +1,9 @@
 #include "core/seal.hpp"
 
-#include <array>
 #include <cstdint>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "core/errors.hpp"
 
@@ -22,17 +22,20 @@ struct Content {
   throw FileError(file.string() + ": " + why);
 }
 
+void add(Content& content, std::string_view part) {
+  for (const char c : part) {
+    content.checksum = (content.checksum ^ static_cast<unsigned char>(c)) * 1099511628211U;
+  }
+  content.length += part.size();
+}
+
+/// What stands behind the seal of a file that has been read up to there.
 Content measure(std::istream& in, const std::filesystem::path& file) {
   Content content;
-  std::array<char, std::size_t{1} << 16> part;
-  in.seekg(seal_size);
+  std::vector<char> part(std::size_t{1} << 16);
   while (in) {
-    in.read(part.data(), part.size());
-    const auto got = static_cast<std::size_t>(in.gcount());
-    for (std::size_t i = 0; i < got; ++i) {
-      content.checksum = (content.checksum ^ static_cast<unsigned char>(part[i])) * 1099511628211U;
-    }
-    content.length += got;
+    in.read(part.data(), static_cast<std::streamsize>(part.size()));
+    add(content, {part.data(), static_cast<std::size_t>(in.gcount())});
   }
   if (in.bad()) refuse(file, "can't be read");
   return content;
@@ -47,15 +50,10 @@ std::string seal_text(const SealedFormat& format, const Content& content) {
 
 }  // namespace
 
-void write_seal(const std::filesystem::path& file, const SealedFormat& format) {
-  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
-  if (!stream) refuse(file, "can't be opened");
-  const std::string text = seal_text(format, measure(stream, file));
-  stream.clear();
-  stream.seekp(0);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  if (!stream) refuse(file, "can't be written");
+std::string make_seal(const SealedFormat& format, std::string_view content) {
+  Content measured;
+  add(measured, content);
+  return seal_text(format, measured);
 }
 
 void check_seal(const std::filesystem::path& file, const SealedFormat& format) {

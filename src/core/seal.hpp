@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace quicksand {
 
@@ -17,8 +18,8 @@ struct SealedFormat {
   int version = 0;
 };
 
-/// Writes the seal of a file that is complete but for its first seal_size bytes. \throws FileError
-void write_seal(const std::filesystem::path& file, const SealedFormat& format);
+/// The seal, seal_size bytes, of a file that goes on with `content`.
+std::string make_seal(const SealedFormat& format, std::string_view content);
 
 /// Makes sure that a file is of a format and as it was when it was sealed.
 /// \throws FileError that says what is wrong: another format or version, cut short, damaged

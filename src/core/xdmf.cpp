@@ -104,8 +104,10 @@ XdmfSeries::XdmfSeries(std::filesystem::path folder) : folder_(std::move(folder)
 
 void XdmfSeries::add(const std::filesystem::path& field_file) {
   insert(xdmf_entry(field_file));
-  write_text_file(folder_ / "fields.xdmf", xdmf_text(entries_));
+  write();
 }
+
+void XdmfSeries::write() const { write_text_file(folder_ / "fields.xdmf", xdmf_text(entries_)); }
 
 void XdmfSeries::insert(const XdmfEntry& entry) {
   const auto place = std::lower_bound(entries_.begin(), entries_.end(), entry.step,

@@ -40,6 +40,8 @@ class XdmfSeries {
 
   /// Adds a field file of the folder and rewrites `fields.xdmf`. \throws FileError
   void add(const std::filesystem::path& field_file);
+  /// Writes `fields.xdmf` as it stands. \throws FileError
+  void write() const;
   const std::vector<XdmfEntry>& entries() const { return entries_; }
 
  private:

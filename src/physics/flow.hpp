@@ -88,10 +88,10 @@ class Flow {
   /// Advances by dt. The state is left as it was when this throws.
   /// \throws NumericalError when a solve fails or a value is not finite
   StepReport advance(double dt);
-  /// Hands over everything that a step starts from, besides domain and parameters: the state, what has escaped, and what
-  /// earlier steps left for solves to start from. A flow that takes it from an archive, in place of initialize(), goes
-  /// on to the same bits. Work arrays that outlive a step and matter to the next one belong here.
-  /// \throws FileError where the archive's values are those of another grid or other species
+  /// Hands over everything that a step starts from, besides domain and parameters: the state, what has escaped, and
+  /// what earlier steps left for solves to start from. A flow that takes it from an archive, in place of initialize(),
+  /// goes on to the same bits. Work arrays that outlive a step and matter to the next one belong here. \throws
+  /// FileError where the archive's values are those of another grid or other species
   void exchange(Archive& archive);
 
  private:

@@ -40,19 +40,19 @@ MemoryArchive memory_of(Flow<Dim>& flow) {
   return archive;
 }
 
-/// What a step reports is compared too, by its momentum: iterations hang on guesses.
+/// Interrupts a flow after its start and after random steps, and lets it go on on one or two threads.
 template <int Dim>
 void expect_same_bits(const CaseConfig& config, int interruptions) {
   Flow<Dim> whole = build_flow<Dim>(config);
   std::vector<MemoryArchive> memories;
   march(config, whole, [&](long) { memories.push_back(memory_of(whole)); });
   const auto last = memories.size() - 1;
-  ASSERT_GT(last, 10u);
+  ASSERT_GT(last, 5u);
   std::mt19937 random(1);
   for (int k = 0; k < interruptions; ++k) {
     const std::size_t at = k == 0 ? 0 : std::uniform_int_distribution<std::size_t>(1, last - 1)(random);
     SCOPED_TRACE("interrupted after step " + std::to_string(at) + " of " + std::to_string(last));
-    const testing::ThreadCount threads(k % 2 == 0 ? 1 : 2);
+    const testing::Threads threads(k % 2 == 0 ? 1 : 2);
     Flow<Dim> resumed = empty_flow<Dim>(config, make_grid<Dim>(config.grid));
     MemoryArchive archive = memories[at];
     resumed.exchange(archive);
@@ -77,18 +77,15 @@ class Resume : public ::testing::TestWithParam<ResumedCase> {
   }
 };
 
-TEST_P(Resume, GoesOnToTheSameBits) { expect(GetParam().end, 3); }
+TEST_P(Resume, GoesOnToTheSameBits) { expect(GetParam().end, 2); }
 
 using ResumeSlow = Resume;
 TEST_P(ResumeSlow, GoesOnToTheSameBitsFromAnywhere) { expect(GetParam().full, 10); }
 
 const ResumedCase cases[] = {
-    {"slug/case_e", 0.2, 1.0, {}},
-    {"slug/case_e_bingham", 0.08, 0.6, {}},
-    {"bubbles/free_ball", 0.1, 1.0, {}},
-    {"slug/case_e_3d", 0.05, 0.3, {}},
-    {"channel/poiseuille", 0.3, 2.0, {}},
-    {"slug/case_d", 0.2, 1.0, {"trapped_gas.adiabatic=true"}},
+    {"slug/case_e", 0.2, 1.0, {}},        {"slug/case_e_bingham", 0.08, 0.6, {}},
+    {"bubbles/free_ball", 0.1, 1.0, {}},  {"slug/case_e_3d", 0.012, 0.2, {}},
+    {"channel/poiseuille", 0.3, 2.0, {}}, {"slug/case_d", 0.2, 1.0, {"trapped_gas.adiabatic=true"}},
 };
 
 std::string name_of(const ::testing::TestParamInfo<ResumedCase>& info) {
