@@ -20,6 +20,9 @@ FlowParameters<Dim> parameters_of(const CaseConfig& config) {
   p.diffusion.iteration = config.solver.viscous_iteration;
   p.diffusion.tolerance = config.solver.viscous_tolerance;
   p.diffusion.max_iterations = config.solver.viscous_max_iterations;
+  p.guard = config.guard;
+  // Solves that are less accurate keep the energy less well.
+  p.guard.energy_rise = std::max(config.guard.energy_rise, config.solver.tolerance);
   return p;
 }
 

@@ -300,6 +300,7 @@ Codec<CaseConfig> make_case_codec() {
       defaulted("trapped_gas", &CaseConfig::trapped_gas, trapped_gas_codec(), "ambient gas that liquid encloses"),
       required("time", &CaseConfig::time, time_codec(), "end of the run and time step"),
       defaulted("solver", &CaseConfig::solver, solver_codec(), "settings of the numerical method"),
+      defaulted("guard", &CaseConfig::guard, guard_codec(), "when a step counts as failed, and what becomes of it"),
       defaulted("output", &CaseConfig::output, output_codec(), "what is written, where and when"),
   });
 }

@@ -116,6 +116,7 @@ struct CaseConfig {
   TrappedGas trapped_gas;
   TimeSettings time;
   SolverSettings solver;
+  GuardSettings guard;
   OutputSettings output;
 };
 

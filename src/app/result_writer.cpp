@@ -67,9 +67,8 @@ ResultWriter<Dim>::ResultWriter(const CaseConfig& config, std::filesystem::path 
 }
 
 template <int Dim>
-FieldSnapshot ResultWriter<Dim>::snapshot(const Flow<Dim>& flow) const {
+FieldSnapshot ResultWriter<Dim>::snapshot(const Flow<Dim>& flow, const State<Dim>& state) const {
   const Grid<Dim>& grid = flow.domain().grid;
-  const State<Dim>& state = flow.state();
   FieldSnapshot s;
   s.title = config_.title;
   s.units = config_.units == UnitSystem::si ? "SI" : "none";
@@ -82,9 +81,21 @@ FieldSnapshot ResultWriter<Dim>::snapshot(const Flow<Dim>& flow) const {
     s.fields.push_back({name, 1, owned_values(grid, field)});
   };
   for (std::size_t i = 0; i < state.phi.size(); ++i) add("phi_" + config_.species[i].name, state.phi[i]);
-  add("density", flow.density());
+  CellField density(grid.layout());
+  mix_density(grid, config_.species, state.phi, density);
+  add("density", density);
   s.fields.push_back({"velocity", Dim, owned_values(grid, state.u)});
   add("pressure", cell_pressure(grid, state.pressure));
+  return s;
+}
+
+template <int Dim>
+FieldSnapshot ResultWriter<Dim>::snapshot(const Flow<Dim>& flow) const {
+  const Grid<Dim>& grid = flow.domain().grid;
+  FieldSnapshot s = snapshot(flow, flow.state());
+  const auto add = [&](const std::string& name, const CellField& field) {
+    s.fields.push_back({name, 1, owned_values(grid, field)});
+  };
   add("gas_region", gas_region_field(flow));
   const StressFields stress = evaluate_stress(flow);
   add("viscosity", stress.viscosity);
@@ -102,10 +113,12 @@ std::filesystem::path ResultWriter<Dim>::write_fields(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-std::filesystem::path ResultWriter<Dim>::write_failed_state(const Flow<Dim>& flow) {
-  std::filesystem::path file = folder_ / ("failed_" + fields_file_name(flow.state().step));
-  quicksand::write_fields(file, snapshot(flow));
-  return file;
+std::pair<std::filesystem::path, std::filesystem::path> ResultWriter<Dim>::write_failed_step(const Flow<Dim>& flow) {
+  const State<Dim>& attempt = flow.failed_attempt();
+  const auto file = [&](const State<Dim>& state) { return folder_ / ("failed_" + fields_file_name(state.step)); };
+  quicksand::write_fields(file(flow.state()), snapshot(flow));
+  quicksand::write_fields(file(attempt), snapshot(flow, attempt));
+  return {file(flow.state()), file(attempt)};
 }
 
 template <int Dim>

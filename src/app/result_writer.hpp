@@ -3,6 +3,7 @@
 /// The files of a result folder.
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "app/bubble_writer.hpp"
 #include "app/case_config.hpp"
@@ -24,8 +25,8 @@ class ResultWriter {
 
   /// Field file of the current state; returns its path. \throws FileError
   std::filesystem::path write_fields(const Flow<Dim>& flow);
-  /// The current state under a name of its own, for looking at what went wrong. \throws FileError
-  std::filesystem::path write_failed_state(const Flow<Dim>& flow);
+  /// After a step has failed: the state before it, and what it had come to, under names of their own. \throws FileError
+  std::pair<std::filesystem::path, std::filesystem::path> write_failed_step(const Flow<Dim>& flow);
   /// One line of `history.csv`, and those of `bubbles.csv` and `events.csv`. \throws FileError
   void append_history(const Flow<Dim>& flow, const Diagnostics& diagnostics, const StepReport& report);
   /// Brings the tables safely to the disk: before a checkpoint, which counts on them. \throws FileError
@@ -34,6 +35,9 @@ class ResultWriter {
   void write_summary(const Json& summary);
 
  private:
+  /// Fractions, density, velocity and pressure of a state on the flow's grid.
+  FieldSnapshot snapshot(const Flow<Dim>& flow, const State<Dim>& state) const;
+  /// The same of the flow's own state, with gas regions and stresses.
   FieldSnapshot snapshot(const Flow<Dim>& flow) const;
 
   const CaseConfig& config_;

@@ -1,6 +1,5 @@
 #include "app/run.hpp"
 
-#include <cmath>
 #include <filesystem>
 #include <new>
 #include <optional>
@@ -12,42 +11,14 @@
 #include "app/output_folder.hpp"
 #include "app/progress.hpp"
 #include "app/result_writer.hpp"
+#include "app/step_retry.hpp"
 #include "core/errors.hpp"
 #include "core/threads.hpp"
-#include "physics/energy.hpp"
 #include "physics/time_step.hpp"
 
 namespace quicksand {
 
 namespace {
-
-/// A step that fails is tried again with half the size this often.
-constexpr int most_halvings = 8;
-
-template <int Dim>
-std::vector<double> volumes_with_escaped(const Flow<Dim>& flow) {
-  std::vector<double> volume;
-  for (std::size_t i = 0; i < flow.state().phi.size(); ++i) {
-    volume.push_back(species_volume(flow.domain().grid, flow.state().phi[i]) + flow.escaped()[i]);
-  }
-  return volume;
-}
-
-/// What changes of energy are compared with: kinetic energy, internal energy of the bubbles, and what the whole mass
-/// gains falling through the domain, sum of mass |g_d| length_d. Per radian in axisymmetric flows.
-template <int Dim>
-double energy_scale(const Flow<Dim>& flow) {
-  const Grid<Dim>& grid = flow.domain().grid;
-  const double mass =
-      sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return flow.density()[c] * grid.volume(c); });
-  double scale = kinetic_energy(grid, flow.density(), flow.state().u);
-  for (const Bubble& b : flow.state().gas.bubbles) scale += b.pressure * b.volume / (b.exponent - 1);
-  for (int d = 0; d < Dim; ++d) {
-    const std::vector<double>& faces = grid.global_faces(d);
-    scale += mass * std::abs(flow.parameters().gravity[d]) * (faces.back() - faces.front());
-  }
-  return scale;
-}
 
 /// A run on its way: the parts that the functions below share.
 template <int Dim>
@@ -59,26 +30,6 @@ struct Run {
   Progress& progress;
 };
 
-/// Advances by at most dt: a failed step is tried again with half of it. \throws NumericalError when all tries fail
-template <int Dim>
-StepReport advance_with_retries(Flow<Dim>& flow, double dt, Run<Dim>& run) {
-  for (int halvings = 0;; ++halvings) {
-    try {
-      return flow.advance(dt);
-    } catch (const NumericalError& error) {
-      if (halvings == most_halvings) throw;
-      dt /= 2;
-      if (dt < run.control.least_step()) {
-        throw NumericalError(std::string(error.what()) + "; half the step, " + number_text(dt) +
-                             ", is below the least that is tried, " + number_text(run.control.least_step()));
-      }
-      run.progress.say("step " + std::to_string(flow.state().step + 1) + ": " + error.what() +
-                       "; trying again with dt " + number_text(dt));
-      run.memory.statistics.count_retry();
-    }
-  }
-}
-
 template <int Dim>
 void write_fields(const Flow<Dim>& flow, Run<Dim>& run) {
   run.progress.wrote(flow.state().time, flow.state().step, run.writer.write_fields(flow).string());
@@ -89,13 +40,18 @@ template <int Dim>
 bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
   const State<Dim>& state = flow.state();
   const double stable = stable_step(flow, run.control.cfl());
-  const StepReport report = advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable), run);
+  const StepReport report =
+      advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable),
+                           {run.config.guard.halvings, run.control.least_step()}, [&](const std::string& failure) {
+                             run.progress.say(failure);
+                             run.memory.statistics.count_retry();
+                           });
   if (run.control.beyond_limit(state.dt, stable) && run.memory.statistics.count_step_beyond_cfl() == 1) {
     run.progress.say("warning: step " + std::to_string(state.step) + ": dt " + number_text(state.dt) +
                      " exceeds the CFL limit of convection, " + number_text(stable) +
                      "; further such steps are only counted, in summary.json");
   }
-  run.memory.statistics.add(report, volumes_with_escaped(flow), state.time);
+  run.memory.statistics.add(report, flow.volume(), state.time);
   run.memory.is_steady = run.memory.steady.reached(report, state.time);
   run.writer.append_history(flow, diagnose(flow), report);
   for (const GasEvent& event : report.gas) {
@@ -130,7 +86,7 @@ Flow<Dim> begin(Run<Dim>& run, const ResumePoint* resume) {
     return flow;
   }
   Flow<Dim> flow = build_flow<Dim>(run.config);
-  run.memory.statistics.start(volumes_with_escaped(flow), energy_scale(flow));
+  run.memory.statistics.start(flow.volume());
   run.control.output_due(0);
   write_fields(flow, run);
   run.writer.append_history(flow, diagnose(flow), StepReport{});
@@ -149,10 +105,10 @@ bool march(Run<Dim>& run, const ResumePoint* resume) {
       if (checkpoints.due(flow.state().time)) write_checkpoint(flow, run, fields_due);
     }
   } catch (const NumericalError& error) {
-    const std::filesystem::path file = run.writer.write_failed_state(flow);
+    const auto [before, after] = run.writer.write_failed_step(flow);
     throw NumericalError("step " + std::to_string(flow.state().step + 1) + " at time " +
                          number_text(flow.state().time) + ": " + error.what() + "; the state before it is in " +
-                         file.string());
+                         before.string() + ", what it came to in " + after.string());
   }
   if (!fields_due) write_fields(flow, run);
   const bool over = is_over(flow, run);

@@ -36,10 +36,7 @@ std::array<int, phase_names.size()> iterations_of(const StepReport& report) {
 RunStatistics::RunStatistics(std::vector<std::string> species, long cells)
     : species_(std::move(species)), cells_(cells), volume_error_(species_.size(), 0.0) {}
 
-void RunStatistics::start(std::vector<double> volume, double energy_scale) {
-  initial_volume_ = std::move(volume);
-  energy_scale_ = energy_scale;
-}
+void RunStatistics::start(std::vector<double> volume) { initial_volume_ = std::move(volume); }
 
 void RunStatistics::add(const StepReport& report, const std::vector<double>& volume, double time) {
   ++steps_;
@@ -48,10 +45,9 @@ void RunStatistics::add(const StepReport& report, const std::vector<double>& vol
   for (std::size_t i = 0; i < volume.size(); ++i) {
     volume_error_[i] = std::max(volume_error_[i], std::abs(volume[i] - initial_volume_[i]) / whole);
   }
-  if (energy_scale_ > 0) {
-    redistribution_rise_ = std::max(redistribution_rise_, report.redistribution_energy_change / energy_scale_);
-    projection_rise_ = std::max(projection_rise_, (report.projection_energy_change - report.gas_work) / energy_scale_);
-  }
+  redistribution_rise_ = std::max(redistribution_rise_, report.redistribution_energy_change / report.energy_scale);
+  projection_rise_ =
+      std::max(projection_rise_, (report.projection_energy_change - report.gas_work) / report.energy_scale);
   const auto iterations = iterations_of(report);
   for (std::size_t k = 0; k < phase_names.size(); ++k) {
     seconds_[k] += report.seconds[k];
@@ -87,7 +83,6 @@ void RunStatistics::exchange(Archive& archive) {
   initial_volume_.resize(species_.size());
   carry_numbers(archive, "statistics/initial_volume", initial_volume_);
   carry_numbers(archive, "statistics/volume_error", volume_error_);
-  carry(archive, "statistics/energy_scale", energy_scale_);
   carry(archive, "statistics/redistribution_rise", redistribution_rise_);
   carry(archive, "statistics/projection_rise", projection_rise_);
   carry_numbers(archive, "statistics/seconds", seconds_);

@@ -22,14 +22,10 @@ class RunStatistics {
   /// \param cells    owned cells
   RunStatistics(std::vector<std::string> species, long cells);
 
-  /// Notes what the steps are compared with.
-  /// \param volume        of every species at the start, in the unit of species_volume()
-  /// \param energy_scale  positive energy that increases of energy are divided by, in the unit of StepReport's
-  /// energies; with
-  ///                      zero none are recorded
-  void start(std::vector<double> volume, double energy_scale);
+  /// Notes what the steps are compared with: Flow::volume() at the start.
+  void start(std::vector<double> volume);
   /// Adds one accepted step.
-  /// \param volume  of every species now, plus what has escaped
+  /// \param volume  Flow::volume() now
   /// \param time    after the step
   void add(const StepReport& report, const std::vector<double>& volume, double time);
   void count_retry() { ++retries_; }
@@ -64,7 +60,6 @@ class RunStatistics {
   double largest_gap_ = 0;
   std::vector<double> initial_volume_;
   std::vector<double> volume_error_;
-  double energy_scale_ = 0;
   double redistribution_rise_ = 0;
   double projection_rise_ = 0;
   std::array<double, phase_names.size()> seconds_{};

@@ -39,6 +39,7 @@ void Flow<Dim>::exchange(Archive& archive) {
   carry(archive, state_);
   carry(archive, state_.gas);
   carry_numbers(archive, "flow/escaped", escaped_);
+  carry(archive, "flow/energy_scale", energy_scale_);
   // Where the solves of a step start from.
   carry(archive, "guess/mac_potential", mac_.potential);
   carry(archive, "guess/redistribution", redistribution_.H_species);
@@ -51,6 +52,7 @@ void Flow<Dim>::exchange(Archive& archive) {
 template <int Dim>
 void Flow<Dim>::recover() {
   refresh();
+  volume_ = volumes(domain_.grid, state_.phi, escaped_);
   if (has_bubbles(gas_parameters(), state_.gas)) {
     label_gas(domain_, total_, parameters_.liquid_threshold, state_.gas.region, gas_labels_);
   }
