@@ -34,6 +34,16 @@ void clear_without_mass(const Grid<Dim>& grid, const CellField& rho, CellVectors
   }
 }
 
+/// Fluxes go to the side they point to, and what is not a number would go nowhere, unseen.
+template <int Dim>
+void require_finite(const Grid<Dim>& grid, const FaceScalars<Dim>& velocity) {
+  double checksum = 0;
+  for (int d = 0; d < Dim; ++d) {
+    checksum += sum<Face>(grid.layout(), grid.faces(d), [&](Face f) { return velocity[d][f]; });
+  }
+  if (!std::isfinite(checksum)) throw NumericalError("the face velocities have values that are not finite");
+}
+
 /// Whether something comes in at a given velocity, and brings energy.
 template <int Dim>
 bool has_inflow(const Sides<Dim>& sides) {
@@ -206,7 +216,7 @@ StepReport Flow<Dim>::step(double dt) {
   const auto clock = [&](Phase phase) {
     report.seconds[static_cast<std::size_t>(phase)] += watch.lap();
     ++parts_done_;
-    if (watcher_) watcher_(phase, {face_velocities_, momentum_tilde_, u_bar_, next_});
+    if (watcher_) watcher_({parts_done_, face_velocities_, momentum_tilde_, u_bar_, next_});
   };
   std::vector<double> escaped = escaped_;
   parts_done_ = 0;
@@ -218,6 +228,7 @@ StepReport Flow<Dim>::step(double dt) {
   clock(Phase::convection);
   report.mac = project_face_velocities(domain_, rho_, liquid_, par.linear, mac_, face_velocities_.mac);
   clock(Phase::mac_projection);
+  require_finite(grid, face_velocities_.mac);
   split_velocities(domain_, in, convection_, face_velocities_);
   convect(domain_, par.species, in, dt, face_velocities_, convection_, next_.phi, momentum_tilde_, escaped);
   mix_density(grid, par.species, next_.phi, next_rho_);

@@ -58,15 +58,16 @@ struct StepReport {
 /// What the phases of a step in progress hand on, open to whoever watches them.
 template <int Dim>
 struct StepInProgress {
+  int part;  ///< of the step that has ended, from 1: phase by phase, convection being in two with one between
   FaceVelocities<Dim>& face_velocities;
   CellVectors<Dim>& momentum_tilde;
   CellVectors<Dim>& u_bar;
-  State<Dim>& next;  ///< fractions from the second part of convection on, velocities from the diffusion on
+  State<Dim>& next;  ///< fractions from part 3 on, velocities from part 6 on
 };
 
 /// Called at the end of every phase, twice for convection, which goes on after the MAC projection.
 template <int Dim>
-using PhaseWatcher = std::function<void(Phase, StepInProgress<Dim>)>;
+using PhaseWatcher = std::function<void(StepInProgress<Dim>)>;
 
 /// A flow on one grid: its state and the work arrays of its phases.
 template <int Dim>
@@ -158,7 +159,7 @@ class Flow {
   /// Stresses of Bingham's law at the start of a step, for when it fails: they belong to the results.
   Field<Node, PointStresses<Dim>> multiplier_before_;
   double penalty_before_ = 0;
-  int parts_done_ = 0;  ///< of the step in progress, each the end of a call of the watcher
+  int parts_done_ = 0;  ///< of the step in progress, see StepInProgress
   PhaseWatcher<Dim> watcher_;
 };
 
