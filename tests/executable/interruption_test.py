@@ -152,6 +152,17 @@ class InterruptionTest(unittest.TestCase):
             self.assertEqual(self.finish([PROGRAM, "info", str(path)])[0], 0)
         self.assertFalse(list((self.folder / "R").glob(".*")), "files left half written")
 
+    def test_failed_run_leaves_the_states_before_and_after(self):
+        code, text = self.finish(self.command("slug/case_e_bingham", "--set", "solver.viscous_max_iterations=1", "--set",
+                                              "solver.viscous_tolerance=1e-9", "--set", "guard.halvings=2"))
+        self.assertEqual(code, 3, text)
+        self.assertEqual(text.count("trying again"), 2)
+        names = sorted(path.name for path in (self.folder / "R").glob("failed_*"))
+        self.assertEqual(names, ["failed_fields_00000000.h5", "failed_fields_00000001.h5"])
+        for name in names:
+            self.assertIn(f"R/{name}", text)
+            self.assertEqual(self.finish([PROGRAM, "info", f"R/{name}"])[0], 0)
+
     def test_removed_folder_ends_the_run(self):
         process = self.start(self.command("slug/case_e", every=0.05, end=40))
         while not (self.folder / "R/history.csv").exists():

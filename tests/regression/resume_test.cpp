@@ -84,7 +84,7 @@ TEST_P(ResumeSlow, GoesOnToTheSameBitsFromAnywhere) { expect(GetParam().full, 10
 
 const ResumedCase cases[] = {
     {"slug/case_e", 0.2, 1.0, {}},        {"slug/case_e_bingham", 0.08, 0.6, {}},
-    {"bubbles/free_ball", 0.1, 1.0, {}},  {"slug/case_e_3d", 0.012, 0.2, {}},
+    {"bubbles/free_ball", 0.1, 1.0, {}},  {"slug/case_e_3d", 0.006, 0.2, {}},
     {"channel/poiseuille", 0.3, 2.0, {}}, {"slug/case_d", 0.2, 1.0, {"trapped_gas.adiabatic=true"}},
 };
 
