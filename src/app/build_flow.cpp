@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "app/grid_sequence.hpp"
+#include "app/initial_bubbles.hpp"
+
 namespace quicksand {
 
 namespace {
@@ -54,12 +57,12 @@ void fill_shapes(const CaseConfig& config, Flow<Dim>& flow) {
   }
 }
 
-/// Cuts the bubbles out of the liquid and marks their cells.
+/// Cuts the bubbles, those of charges too, out of the liquid and marks their cells.
 template <int Dim>
 void cut_bubbles(const CaseConfig& config, Flow<Dim>& flow) {
   const Grid<Dim>& grid = flow.domain().grid;
   State<Dim>& state = flow.state();
-  for (const InitialBubble& bubble : config.bubbles) {
+  for (const InitialBubble& bubble : initial_bubbles(config)) {
     const Shape ball = SphereShape{bubble.center, bubble.radius};
     const int id = ++state.gas.last_id;
     state.gas.bubbles.push_back({.id = id, .exponent = bubble.adiabatic_exponent, .pressure = bubble.pressure});
@@ -74,21 +77,28 @@ void cut_bubbles(const CaseConfig& config, Flow<Dim>& flow) {
 }  // namespace
 
 template <int Dim>
-Flow<Dim> empty_flow(const CaseConfig& config, const Grid<Dim>& grid) {
-  return {Domain<Dim>(grid, make_sides<Dim>(config)), parameters_of<Dim>(config)};
+Flow<Dim> empty_flow(const CaseConfig& config, Domain<Dim> domain) {
+  return {std::move(domain), parameters_of<Dim>(config)};
 }
 
 template <int Dim>
-Flow<Dim> build_flow(const CaseConfig& config) {
-  Flow<Dim> flow = empty_flow<Dim>(config, make_grid<Dim>(config.grid));
+Flow<Dim> build_flow(const CaseConfig& config, Domain<Dim> domain) {
+  Flow<Dim> flow = empty_flow<Dim>(config, std::move(domain));
   fill_shapes(config, flow);
   cut_bubbles(config, flow);
   flow.initialize();
   return flow;
 }
 
-template Flow<2> empty_flow<2>(const CaseConfig&, const Grid<2>&);
-template Flow<3> empty_flow<3>(const CaseConfig&, const Grid<3>&);
+template <int Dim>
+Flow<Dim> build_flow(const CaseConfig& config) {
+  return build_flow<Dim>(config, GridSequence<Dim>(config).first());
+}
+
+template Flow<2> empty_flow<2>(const CaseConfig&, Domain<2>);
+template Flow<3> empty_flow<3>(const CaseConfig&, Domain<3>);
+template Flow<2> build_flow<2>(const CaseConfig&, Domain<2>);
+template Flow<3> build_flow<3>(const CaseConfig&, Domain<3>);
 template Flow<2> build_flow<2>(const CaseConfig&);
 template Flow<3> build_flow<3>(const CaseConfig&);
 

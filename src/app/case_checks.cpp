@@ -1,66 +1,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/bubble_checks.hpp"
 #include "app/case_codec.hpp"
+#include "app/grid_checks.hpp"
 #include "app/shape_checks.hpp"
 #include "core/errors.hpp"
 
 namespace quicksand {
 
 namespace {
-
-/// Most cells of a grid: beyond this no machine that this is meant for could hold the fields.
-constexpr double most_cells = 2e9;
-
-void check_axis(const std::vector<AxisSegment>& segments, const std::string& path, Reading& reading) {
-  if (segments.empty() || !reading.clean(path)) return;
-  const bool list = reading.nearest(path).kind == ConfigNode::Kind::list;
-  double before = 0;
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    const AxisSegment& segment = segments[i];
-    const std::string place = list ? child_path(path, i) : path;
-    if (i == 0 && !segment.from) {
-      reading.problem(place + ".from", "is required but missing: where the axis begins");
-      continue;
-    }
-    const double from = segment.from.value_or(before);
-    if (i > 0 && std::abs(from - before) > 1e-12 * std::max(std::abs(from), std::abs(before))) {
-      reading.problem(place + ".from", "must be where the segment before ends, " + shortest(before) + ", not " +
-                                           shortest(from) + " (or leave it out)");
-    }
-    if (!(from < segment.to)) {
-      reading.problem(place + ".to", "must be greater than from = " + shortest(from) + ", not " + shortest(segment.to));
-    }
-    before = segment.to;
-  }
-  if (!reading.clean(path)) return;
-  try {
-    make_faces(segments);
-  } catch (const InputError& error) {
-    reading.problem(path, error.what());
-  }
-}
-
-void check_grid(const GridConfig& grid, Reading& reading) {
-  if (reading.root().find("grid") == nullptr || !reading.clean("grid.dimension")) return;
-  if (grid.dimension == 3) {
-    if (reading.clean("grid.y") && grid.y.empty()) reading.problem("grid.y", "is required but missing: in 3-D");
-    if (grid.geometry == Geometry::axisymmetric) {
-      reading.problem("grid.geometry", "axisymmetric needs dimension: 2");
-    }
-    check_axis(grid.y, "grid.y", reading);
-  } else if (!grid.y.empty()) {
-    reading.problem("grid.y", "dimension: 2 has no y; its axes are x and z");
-  }
-  check_axis(grid.x, "grid.x", reading);
-  check_axis(grid.z, "grid.z", reading);
-  if (grid.geometry == Geometry::axisymmetric && reading.clean("grid.x") && !grid.x.empty() &&
-      grid.x.front().from.value_or(0) < 0) {
-    reading.problem("grid.x", "must not begin at a negative radius, " + shortest(*grid.x.front().from));
-  }
-  const double cells = count_cells(grid);
-  if (cells > most_cells) reading.problem("grid", "has " + shortest(cells) + " cells; at most " + shortest(most_cells));
-}
 
 /// Whether two pressures differ by no more than the conversion of units may cause.
 bool same_pressure(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
@@ -223,6 +172,7 @@ void check_output(const CaseConfig& config, Reading& reading) {
 
 void check_case(const CaseConfig& config, Reading& reading) {
   check_grid(config.grid, reading);
+  check_stages(config, reading);
   check_boundaries(config, reading);
   check_periodic(config.boundaries, reading);
   const bool axisymmetric = config.grid.geometry == Geometry::axisymmetric;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
-#include <limits>
 
 #include "core/config_variant.hpp"
 
@@ -13,29 +12,8 @@ namespace {
 
 namespace dim = dimension;
 constexpr Range fraction_of_one{0, 1, true};
-constexpr Range above_one{1, std::numeric_limits<double>::infinity(), true};
 
 Codec<UnitSystem> units_codec() { return choice<UnitSystem>({{"SI", UnitSystem::si}, {"none", UnitSystem::none}}); }
-
-Codec<GridConfig> grid_codec() {
-  const auto stretch = choice<Stretch>({{"uniform", Stretch::uniform}, {"smooth", Stretch::smooth}});
-  const auto geometry = choice<Geometry>({{"planar", Geometry::planar}, {"axisymmetric", Geometry::axisymmetric}});
-  const auto axis = one_or_list_of(object<AxisSegment>({
-      maybe("from", &AxisSegment::from, quantity(dim::length), "where the segment begins"),
-      required("to", &AxisSegment::to, quantity(dim::length), "where the segment ends"),
-      required("cells", &AxisSegment::cells, whole_number(1, 1000000), "number of cells of the segment"),
-      defaulted(
-          "stretch", &AxisSegment::stretch, stretch,
-          "uniform: equal widths; smooth: geometric progression from the width of the neighbouring segment's cells"),
-  }));
-  return object<GridConfig>({
-      required("dimension", &GridConfig::dimension, whole_number(2, 3), "2 for (x, z), 3 for (x, y, z)"),
-      defaulted("geometry", &GridConfig::geometry, geometry, "planar, or axisymmetric (2-D only): x is the radius"),
-      required("x", &GridConfig::x, axis, "horizontal or radial axis: one segment or a list of them"),
-      maybe("y", &GridConfig::y, axis, "second horizontal axis, in 3-D only"),
-      required("z", &GridConfig::z, axis, "vertical axis, upwards"),
-  });
-}
 
 Codec<Inflow> inflow_codec() {
   const auto profile = choice<Profile>({{"uniform", Profile::uniform}, {"parabolic", Profile::parabolic}});
@@ -231,24 +209,6 @@ Codec<InitialFill> fill_codec() {
   });
 }
 
-Codec<InitialBubble> bubble_codec() {
-  return object<InitialBubble>({
-      required("center", &InitialBubble::center, vector_of(dim::length), "middle"),
-      required("radius", &InitialBubble::radius, quantity(dim::length, positive), "radius"),
-      required("pressure", &InitialBubble::pressure, quantity(dim::pressure, positive), "pressure at the start"),
-      required("adiabatic_exponent", &InitialBubble::adiabatic_exponent, quantity(dim::none, above_one),
-               "gamma of P V^gamma = constant"),
-  });
-}
-
-Codec<TrappedGas> trapped_gas_codec() {
-  return object<TrappedGas>({
-      defaulted("adiabatic", &TrappedGas::adiabatic, flag(),
-                "whether ambient gas that liquid encloses becomes a bubble; else it keeps the ambient pressure"),
-      defaulted("adiabatic_exponent", &TrappedGas::exponent, quantity(dim::none, above_one), "gamma of ambient gas"),
-  });
-}
-
 Codec<TimeSettings> time_codec() {
   const auto duration = quantity(dim::time, positive);
   return object<TimeSettings>({
@@ -297,8 +257,13 @@ Codec<CaseConfig> make_case_codec() {
       required("initial", &CaseConfig::initial, list_of(fill_codec(), 1), "what is filled at the start"),
       defaulted("bubbles", &CaseConfig::bubbles, list_of(bubble_codec()),
                 "gas with a pressure of its own, cut out of the liquid"),
+      defaulted("charges", &CaseConfig::charges, list_of(charge_codec()),
+                "explosive charges, which start as bubbles; units: SI only"),
       defaulted("trapped_gas", &CaseConfig::trapped_gas, trapped_gas_codec(), "ambient gas that liquid encloses"),
       required("time", &CaseConfig::time, time_codec(), "end of the run and time step"),
+      defaulted("stages", &CaseConfig::stages, list_of(stage_codec()),
+                "grids of the first parts of the run, in order of time; the flow is moved from one to the next"),
+      maybe("regrid", &CaseConfig::regrid, regrid_codec(), "grids that follow the bubbles of the start as they grow"),
       defaulted("solver", &CaseConfig::solver, solver_codec(), "settings of the numerical method"),
       defaulted("guard", &CaseConfig::guard, guard_codec(), "when a step counts as failed, and what becomes of it"),
       defaulted("output", &CaseConfig::output, output_codec(), "what is written, where and when"),

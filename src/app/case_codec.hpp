@@ -18,6 +18,16 @@ Codec<GuardSettings> guard_codec();
 /// How a shape is read, written and described.
 Codec<Shape> shape_codec();
 
+/// How the case's grid, a stage of a grid sequence and the automatic grids are read, written and described.
+Codec<GridConfig> grid_codec();
+Codec<StageConfig> stage_codec();
+Codec<RegridConfig> regrid_codec();
+
+/// How a bubble, a charge and the treatment of trapped gas are read, written and described.
+Codec<InitialBubble> bubble_codec();
+Codec<InitialCharge> charge_codec();
+Codec<TrappedGas> trapped_gas_codec();
+
 /// The values that the rest of the file depends on, read ahead of it (problems are noted in the full reading).
 UnitSystem peek_units(const ConfigNode& root);
 int peek_dimension(const ConfigNode& root);

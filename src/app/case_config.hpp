@@ -37,6 +37,19 @@ struct GridConfig {
   std::vector<AxisSegment> z;
 };
 
+/// The first part of a run, on a grid of its own: a grid sequence as in the report's Table 3.
+struct StageConfig {
+  double until = 0;  ///< time at which the flow moves on to the next stage's grid
+  struct Axes {
+    std::vector<AxisSegment> x, y, z;  ///< of the same domain as the case's grid
+  } grid;
+};
+
+/// Grids made to follow the bubbles of the start while they grow, see FollowingGrid.
+struct RegridConfig {
+  int bubble_cells = 0;  ///< least number of cells on a bubble's radius
+};
+
 /// What comes in through a side.
 struct Inflow {
   Vec<3> velocity;                  ///< the largest one of the profile
@@ -71,6 +84,16 @@ struct InitialBubble {
   double radius = 0;
   double pressure = 0;
   double adiabatic_exponent = 1.4;
+};
+
+/// An explosive charge, which starts as a bubble: see Charge, whose constants it has.
+struct InitialCharge {
+  Vec<3> center;
+  double mass = 0;                     ///< of the whole charge, wherever planes of symmetry cut it
+  double radius_constant = 0;          ///< J
+  double minimum_radius_constant = 0;  ///< q
+  double adiabatic_exponent = 1.4;
+  std::optional<double> thickness;  ///< across the plane, in planar cases: M = mass / thickness
 };
 
 /// End of the run and size of its steps: either fixed, or by the CFL number with an upper limit.
@@ -113,8 +136,11 @@ struct CaseConfig {
   std::vector<Species> species;
   std::vector<InitialFill> initial;
   std::vector<InitialBubble> bubbles;
+  std::vector<InitialCharge> charges;
   TrappedGas trapped_gas;
   TimeSettings time;
+  std::vector<StageConfig> stages;  ///< in order of time; what follows them runs on `grid`
+  std::optional<RegridConfig> regrid;
   SolverSettings solver;
   GuardSettings guard;
   OutputSettings output;
@@ -152,6 +178,9 @@ Extent domain_of(const GridConfig& config);
 
 /// Number of the species with a name; as many as there are if there is none.
 std::size_t species_number(const CaseConfig& config, const std::string& name);
+
+/// The grid of a stage: that of the case with other axes.
+GridConfig grid_of(const CaseConfig& config, const StageConfig& stage);
 
 /// Grid of a case. \pre config.dimension == Dim
 template <int Dim>

@@ -10,6 +10,8 @@
 #include <sstream>
 
 #include "app/build_flow.hpp"
+#include "app/grid_sequence.hpp"
+#include "app/initial_bubbles.hpp"
 #include "app/time_control.hpp"
 #include "core/config_node.hpp"
 #include "core/snapshot.hpp"
@@ -69,6 +71,28 @@ std::string bubbles_text(const CaseConfig& config) {
   return out.str();
 }
 
+/// Where the charges are and what becomes of them; with five digits, to compare with tables.
+std::string charges_text(const CaseConfig& config) {
+  const bool ball = geometry_of(config.grid) != Geometry::planar;
+  std::ostringstream out;
+  out << std::setprecision(5);
+  for (const InitialCharge& charge : config.charges) {
+    const PlacedCharge placed = place_charge(config, charge);
+    const ExplosionBubble& bubble = placed.bubble;
+    out << "charge         depth " << placed.depth << ", P_inf " << placed.p_inf << ", radius ratio "
+        << bubble.radius_ratio << "\n               A_min " << bubble.minimum_radius << ", A_max "
+        << bubble.maximum_radius << ", P_B0 " << bubble.initial_pressure << " = "
+        << bubble.initial_pressure / placed.p_inf << " P_inf, least pressure " << bubble.least_pressure / placed.p_inf
+        << " P_inf\n               free-field period ";
+    if (ball) {
+      out << free_field_period(bubble, charge.adiabatic_exponent, placed.p_inf, placed.density) << "\n";
+    } else {
+      out << "none (infinite for a cylinder of gas in unbounded liquid)\n";
+    }
+  }
+  return out.str();
+}
+
 template <int Dim>
 struct InitialState {
   Grid<Dim> grid;
@@ -76,17 +100,19 @@ struct InitialState {
   CellField liquid;             ///< sum of fractions
 };
 
+/// The start on the first grid of the run.
 template <int Dim>
 InitialState<Dim> fill_cells(const CaseConfig& config) {
-  Grid<Dim> grid = make_grid<Dim>(config.grid);
+  Grid<Dim> grid = GridSequence<Dim>(config).first().grid;
   InitialState<Dim> state{std::move(grid), {}, {}};
   state.liquid = CellField(state.grid.layout());
   const Box<Dim> cells = state.grid.cells();
+  const std::vector<InitialBubble> bubbles = initial_bubbles(config);
   for (const InitialFill& fill : config.initial) {
     CellField phi(state.grid.layout());
     for_each_indexed<Cell>(state.grid.layout(), cells, [&](Cell c, const Index<Dim>& i) {
       phi[c] = fraction(fill.shape, state.grid, i);
-      for (const InitialBubble& bubble : config.bubbles) {
+      for (const InitialBubble& bubble : bubbles) {
         phi[c] *= 1 - fraction(SphereShape{bubble.center, bubble.radius}, state.grid, i);
       }
       state.liquid[c] += phi[c];
@@ -182,7 +208,8 @@ std::string report(const CaseConfig& config) {
       << "cells          " << cells_text(config.grid) << "\n"
       << "smallest cell  " << brief(smallest_width(config.grid)) << "\n"
       << "memory         about " << brief(needed_memory(config)) << " MB\n"
-      << species_text<Dim>(config) << bubbles_text(config) << "end of run     " << shortest(config.time.end) << "\n"
+      << species_text<Dim>(config) << bubbles_text(config) << charges_text(config) << "end of run     "
+      << shortest(config.time.end) << "\n"
       << "time step      " << time_step_text<Dim>(config) << "\n"
       << "output folder  " << config.output.directory << "\n";
   return out.str();
@@ -219,11 +246,14 @@ double width_around(const Grid<Dim>& grid, const InitialBubble& bubble) {
 template <int Dim>
 std::vector<std::string> bubble_warnings(const CaseConfig& config, const Grid<Dim>& grid) {
   std::vector<std::string> found;
-  for (std::size_t i = 0; i < config.bubbles.size(); ++i) {
-    const double cells = config.bubbles[i].radius / width_around(grid, config.bubbles[i]);
+  const std::vector<InitialBubble> bubbles = initial_bubbles(config);
+  for (std::size_t i = 0; i < bubbles.size(); ++i) {
+    const double cells = bubbles[i].radius / width_around(grid, bubbles[i]);
     if (cells >= least_bubble_cells) continue;
-    found.push_back("bubbles[" + std::to_string(i) + "]: the radius is " + brief(cells) + " cells; fewer than " +
-                    std::to_string(least_bubble_cells) + " do not resolve it");
+    const std::size_t given = config.bubbles.size();
+    const std::string path = i < given ? child_path("bubbles", i) : child_path("charges", i - given);
+    found.push_back(path + ": the " + (i < given ? "" : "minimum ") + "radius is " + brief(cells) +
+                    " cells; fewer than " + std::to_string(least_bubble_cells) + " do not resolve it");
   }
   return found;
 }

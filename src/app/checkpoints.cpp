@@ -85,7 +85,7 @@ ResumePoint find_resume_point(const fs::path& folder, const CaseConfig& config,
 }
 
 template <int Dim>
-fs::path write_checkpoint(const fs::path& folder, const CaseConfig& config, bool fields_due, RunMemory& memory,
+fs::path write_checkpoint(const fs::path& folder, const CaseConfig& config, bool fields_due, RunMemory<Dim>& memory,
                           Flow<Dim>& flow) {
   CheckpointHead head{to_yaml(config), flow.state().step, flow.state().time, fields_due};
   fs::path file = folder / checkpoint_file_name(head.step);
@@ -103,18 +103,19 @@ fs::path write_checkpoint(const fs::path& folder, const CaseConfig& config, bool
 }
 
 template <int Dim>
-Flow<Dim> read_checkpoint(CheckpointReader& reader, const CaseConfig& config, RunMemory& memory) {
+Flow<Dim> read_checkpoint(CheckpointReader& reader, const CaseConfig& config, RunMemory<Dim>& memory) {
   memory.exchange(reader);
   std::array<std::vector<double>, Dim> faces;
   carry_faces<Dim>(reader, faces);
-  Flow<Dim> flow = empty_flow<Dim>(config, Grid<Dim>(std::move(faces), geometry_of(config.grid)));
+  Flow<Dim> flow = empty_flow<Dim>(
+      config, Domain<Dim>(Grid<Dim>(std::move(faces), geometry_of(config.grid)), make_sides<Dim>(config)));
   flow.exchange(reader);
   return flow;
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                      \
-  template fs::path write_checkpoint(const fs::path&, const CaseConfig&, bool, RunMemory&, Flow<Dim>&); \
-  template Flow<Dim> read_checkpoint(CheckpointReader&, const CaseConfig&, RunMemory&);
+#define QUICKSAND_INSTANTIATE(Dim)                                                                           \
+  template fs::path write_checkpoint(const fs::path&, const CaseConfig&, bool, RunMemory<Dim>&, Flow<Dim>&); \
+  template Flow<Dim> read_checkpoint(CheckpointReader&, const CaseConfig&, RunMemory<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

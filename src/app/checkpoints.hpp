@@ -50,10 +50,10 @@ ResumePoint find_resume_point(const std::filesystem::path& folder, const CaseCon
 /// Writes a checkpoint, then removes all but the newest two. \returns its path \throws FileError
 template <int Dim>
 std::filesystem::path write_checkpoint(const std::filesystem::path& folder, const CaseConfig& config, bool fields_due,
-                                       RunMemory& memory, Flow<Dim>& flow);
+                                       RunMemory<Dim>& memory, Flow<Dim>& flow);
 
 /// The flow and the run's memory as they were. \throws FileError
 template <int Dim>
-Flow<Dim> read_checkpoint(CheckpointReader& reader, const CaseConfig& config, RunMemory& memory);
+Flow<Dim> read_checkpoint(CheckpointReader& reader, const CaseConfig& config, RunMemory<Dim>& memory);
 
 }  // namespace quicksand

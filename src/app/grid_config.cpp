@@ -127,6 +127,10 @@ Extent domain_of(const GridConfig& config) {
   return domain;
 }
 
+GridConfig grid_of(const CaseConfig& config, const StageConfig& stage) {
+  return {config.grid.dimension, config.grid.geometry, stage.grid.x, stage.grid.y, stage.grid.z};
+}
+
 template <int Dim>
 Grid<Dim> make_grid(const GridConfig& config) {
   std::array<std::vector<double>, Dim> faces;

@@ -26,8 +26,7 @@ std::string format_duration(double seconds) {
 
 }  // namespace
 
-Progress::Progress(double end, long cells, bool quiet)
-    : end_(end), cells_(cells), quiet_(quiet), terminal_(isatty(STDOUT_FILENO) != 0) {}
+Progress::Progress(double end, bool quiet) : end_(end), quiet_(quiet), terminal_(isatty(STDOUT_FILENO) != 0) {}
 
 Progress::~Progress() { clear_line(); }
 
@@ -42,12 +41,13 @@ void Progress::clear_line() {
 }
 
 void Progress::step(double time, long step, double dt) {
+  cell_steps_ += static_cast<double>(cells_);
   const double now = elapsed();
   if (quiet_ || !terminal_ || now - last_drawn_ < seconds_between_redraws) return;
   last_drawn_ = now;
   const double left = time > 0 ? now * (end_ - time) / time : 0;
   std::printf("\r\033[Kt = %.5g of %.5g  step %ld  dt %.3g  %.3g cells/s  %s left", time, end_, step, dt,
-              now > 0 ? static_cast<double>(cells_ * step) / now : 0.0, format_duration(left).c_str());
+              now > 0 ? cell_steps_ / now : 0.0, format_duration(left).c_str());
   drawn_ = true;
   std::fflush(stdout);
 }

@@ -10,11 +10,13 @@ namespace quicksand {
 /// no control codes.
 class Progress {
  public:
-  Progress(double end, long cells, bool quiet);
+  Progress(double end, bool quiet);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// The steps that follow are on a grid with so many cells.
+  void begin_grid(long cells) { cells_ = cells; }
   /// Called after every step; redraws a few times a second.
   void step(double time, long step, double dt);
   /// Called when fields were written.
@@ -27,7 +29,8 @@ class Progress {
   void clear_line();
 
   double end_;
-  long cells_;
+  long cells_ = 0;
+  double cell_steps_ = 0;
   bool quiet_;
   bool terminal_;
   bool drawn_ = false;

@@ -63,7 +63,8 @@ ResultWriter<Dim>::ResultWriter(const CaseConfig& config, std::filesystem::path 
   if (last_step) series_.write();
   if (!config.output.history) return;
   history_.emplace(folder_ / "history.csv", history_columns(config), last_step);
-  if (!config.bubbles.empty() || config.trapped_gas.adiabatic) bubbles_.emplace(folder_, last_step);
+  const bool bubbles = !config.bubbles.empty() || !config.charges.empty() || config.trapped_gas.adiabatic;
+  if (bubbles) bubbles_.emplace(folder_, last_step);
 }
 
 template <int Dim>

@@ -14,6 +14,7 @@
 #include "app/step_retry.hpp"
 #include "core/errors.hpp"
 #include "core/threads.hpp"
+#include "physics/remap.hpp"
 #include "physics/time_step.hpp"
 
 namespace quicksand {
@@ -24,10 +25,11 @@ namespace {
 template <int Dim>
 struct Run {
   const CaseConfig& config;
-  RunMemory memory;
+  RunMemory<Dim> memory;
   TimeControl control;
   ResultWriter<Dim> writer;
   Progress& progress;
+  std::vector<GasEvent> remap_events{};  ///< since the last step
 };
 
 template <int Dim>
@@ -40,12 +42,14 @@ template <int Dim>
 bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
   const State<Dim>& state = flow.state();
   const double stable = stable_step(flow, run.control.cfl());
-  const StepReport report =
+  StepReport report =
       advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable),
                            {run.config.guard.halvings, run.control.least_step()}, [&](const std::string& failure) {
                              run.progress.say(failure);
                              run.memory.statistics.count_retry();
                            });
+  report.gas.insert(report.gas.begin(), run.remap_events.begin(), run.remap_events.end());
+  run.remap_events.clear();
   if (run.control.beyond_limit(state.dt, stable) && run.memory.statistics.count_step_beyond_cfl() == 1) {
     run.progress.say("warning: step " + std::to_string(state.step) + ": dt " + number_text(state.dt) +
                      " exceeds the CFL limit of convection, " + number_text(stable) +
@@ -61,6 +65,34 @@ bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
   const bool due = run.control.output_due(state.time);
   if (due) write_fields(flow, run);
   return due;
+}
+
+/// Takes note of the grid that the flow is on now.
+template <int Dim>
+void begin_grid(const Flow<Dim>& flow, Run<Dim>& run) {
+  const Index<Dim>& cells = flow.domain().grid.global_cells();
+  std::string text;
+  long count = 1;
+  for (int d = 0; d < Dim; ++d) {
+    text += (d > 0 ? " x " : "") + std::to_string(cells[d]);
+    count *= cells[d];
+  }
+  run.memory.statistics.begin_grid(text, count, flow.state().time);
+  run.progress.begin_grid(count);
+  if (run.memory.grids.number() == 1) return;
+  run.progress.say("grid " + std::to_string(run.memory.grids.number()) + " at t = " + number_text(flow.state().time) +
+                   ": " + text + " cells, the smallest " + number_text(flow.domain().grid.smallest_width()));
+}
+
+/// Moves the flow to the next grid when its time has come.
+template <int Dim>
+void change_grid(Flow<Dim>& flow, Run<Dim>& run) {
+  std::optional<Domain<Dim>> domain = run.memory.grids.next(flow);
+  if (!domain) return;
+  RemapReport report;
+  flow = remap(flow, std::move(*domain), report);
+  run.remap_events = report.gas;
+  begin_grid(flow, run);
 }
 
 template <int Dim>
@@ -82,10 +114,12 @@ Flow<Dim> begin(Run<Dim>& run, const ResumePoint* resume) {
   if (resume != nullptr) {
     Flow<Dim> flow = read_checkpoint<Dim>(*resume->reader, run.config, run.memory);
     run.control.output_due(flow.state().time);
+    run.progress.begin_grid(flow.domain().grid.cells().size());
     run.progress.say("resumed from " + resume->reader->path().string());
     return flow;
   }
-  Flow<Dim> flow = build_flow<Dim>(run.config);
+  Flow<Dim> flow = build_flow<Dim>(run.config, run.memory.grids.first());
+  begin_grid(flow, run);
   run.memory.statistics.start(flow.volume());
   run.control.output_due(0);
   write_fields(flow, run);
@@ -101,6 +135,7 @@ bool march(Run<Dim>& run, const ResumePoint* resume) {
   bool fields_due = resume == nullptr || resume->head.fields_due;
   try {
     while (!is_over(flow, run) && interrupt_signal() == 0) {
+      change_grid(flow, run);
       fields_due = take_step(flow, run);
       if (checkpoints.due(flow.state().time)) write_checkpoint(flow, run, fields_due);
     }
@@ -135,18 +170,19 @@ std::string steadiness_text(const Run<Dim>& run) {
 template <int Dim>
 int run_in(const CaseConfig& config, const RunOptions& options) {
   const std::string& folder = config.output.directory;
-  const long cells = static_cast<long>(count_cells(config.grid));
   std::vector<std::string> species;
   for (const Species& s : config.species) species.push_back(s.name);
-  Progress progress(config.time.end, cells, options.quiet);
+  Progress progress(config.time.end, options.quiet);
   std::optional<ResumePoint> resume;
   if (options.resume) {
     resume = find_resume_point(folder, config, [&](const std::string& text) { progress.say(text); });
     rewind_output_folder(folder, resume->head.step, resume->head.fields_due);
   }
+  std::vector<double> stage_ends;
+  for (const StageConfig& stage : config.stages) stage_ends.push_back(stage.until);
   Run<Dim> run{config,
-               {SteadyState(config.time.until_steady), false, RunStatistics(species, cells)},
-               TimeControl(config.time, config.output.fields),
+               {GridSequence<Dim>(config), SteadyState(config.time.until_steady), false, RunStatistics(species)},
+               TimeControl(config.time, config.output.fields, stage_ends),
                ResultWriter<Dim>(config, folder, resume ? std::optional(resume->head.step) : std::nullopt),
                progress};
   bool finished = false;

@@ -33,14 +33,21 @@ std::array<int, phase_names.size()> iterations_of(const StepReport& report) {
 
 }  // namespace
 
-RunStatistics::RunStatistics(std::vector<std::string> species, long cells)
-    : species_(std::move(species)), cells_(cells), volume_error_(species_.size(), 0.0) {}
+RunStatistics::RunStatistics(std::vector<std::string> species)
+    : species_(std::move(species)), volume_error_(species_.size(), 0.0) {}
+
+void RunStatistics::begin_grid(const std::string& cells_text, long cells, double time) {
+  grids_.push_back({cells_text, cells, time});
+}
 
 void RunStatistics::start(std::vector<double> volume) { initial_volume_ = std::move(volume); }
 
 void RunStatistics::add(const StepReport& report, const std::vector<double>& volume, double time) {
   ++steps_;
   time_ = time;
+  OnGrid& grid = grids_.back();
+  ++grid.steps;
+  cell_steps_ += static_cast<double>(grid.cells);
   const double whole = std::accumulate(initial_volume_.begin(), initial_volume_.end(), 0.0);
   for (std::size_t i = 0; i < volume.size(); ++i) {
     volume_error_[i] = std::max(volume_error_[i], std::abs(volume[i] - initial_volume_[i]) / whole);
@@ -51,6 +58,7 @@ void RunStatistics::add(const StepReport& report, const std::vector<double>& vol
   const auto iterations = iterations_of(report);
   for (std::size_t k = 0; k < phase_names.size(); ++k) {
     seconds_[k] += report.seconds[k];
+    grid.seconds[k] += report.seconds[k];
     iterations_[k] += iterations[k];
     most_iterations_[k] = std::max(most_iterations_[k], iterations[k]);
   }
@@ -64,6 +72,18 @@ double RunStatistics::wall_seconds() const {
   return earlier_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
+void RunStatistics::carry_grids(Archive& archive) {
+  carry(archive, "statistics/grid/cells", grids_, &OnGrid::cells);
+  carry(archive, "statistics/grid/from", grids_, &OnGrid::from);
+  carry(archive, "statistics/grid/steps", grids_, &OnGrid::steps);
+  for (std::size_t i = 0; i < grids_.size(); ++i) {
+    const std::string name = "statistics/grid/" + std::to_string(i);
+    archive.exchange(name + "/text", grids_[i].cells_text);
+    carry_numbers(archive, name + "/seconds", grids_[i].seconds);
+  }
+  carry(archive, "statistics/cell_steps", cell_steps_);
+}
+
 void RunStatistics::exchange(Archive& archive) {
   double wall = wall_seconds();
   carry(archive, "statistics/wall_seconds", wall);
@@ -73,6 +93,7 @@ void RunStatistics::exchange(Archive& archive) {
     earlier_seconds_ = wall;
     ++resumptions_;
   }
+  carry_grids(archive);
   carry(archive, "statistics/steps", steps_);
   carry(archive, "statistics/time", time_);
   carry(archive, "statistics/retries", retries_);
@@ -105,15 +126,15 @@ Json RunStatistics::summary(const std::string& status, const std::string& messag
   json["resumptions"] = resumptions_;
   json["retried_steps"] = retries_;
   json["steps_beyond_cfl"] = steps_beyond_cfl_;
-  json["cells"] = cells_;
+  json["cells"] = grids_.back().cells;
   json["wall_seconds"] = wall;
-  json["cell_steps_per_second"] = wall > 0 ? static_cast<double>(cells_ * steps_) / wall : 0.0;
+  json["cell_steps_per_second"] = wall > 0 ? cell_steps_ / wall : 0.0;
   json["threads"] = thread_count();
   json["peak_memory_MiB"] = peak_memory();
   for (std::size_t i = 0; i < species_.size(); ++i) json["volume_error"][species_[i]] = volume_error_[i];
   json["energy_increase"]["redistribution"] = redistribution_rise_;
   json["energy_increase"]["projection"] = projection_rise_;
-  const double cell_steps = static_cast<double>(std::max(cells_ * steps_, 1L));
+  const double cell_steps = std::max(cell_steps_, 1.0);
   for (std::size_t k = 0; k < phase_names.size(); ++k) {
     Json& phase = json["phases"][phase_names[k]];
     phase["seconds"] = seconds_[k];
@@ -125,6 +146,15 @@ Json RunStatistics::summary(const std::string& status, const std::string& messag
   json["phases"]["diffusion"]["fallbacks"] = fallbacks_;
   json["phases"]["diffusion"]["stagnated"] = stagnated_;
   json["phases"]["diffusion"]["largest_gap"] = largest_gap_;
+  json["grids"] = Json::array();
+  for (const OnGrid& grid : grids_) {
+    Json entry;
+    entry["cells"] = grid.cells_text;
+    entry["from"] = grid.from;
+    entry["steps"] = grid.steps;
+    for (std::size_t k = 0; k < phase_names.size(); ++k) entry["seconds"][phase_names[k]] = grid.seconds[k];
+    json["grids"].append(entry);
+  }
   return json;
 }
 

@@ -19,8 +19,10 @@ namespace quicksand {
 class RunStatistics {
  public:
   /// \param species  names
-  /// \param cells    owned cells
-  RunStatistics(std::vector<std::string> species, long cells);
+  explicit RunStatistics(std::vector<std::string> species);
+
+  /// The steps that follow are on a grid with so many owned cells, from `time` on.
+  void begin_grid(const std::string& cells_text, long cells, double time);
 
   /// Notes what the steps are compared with: Flow::volume() at the start.
   void start(std::vector<double> volume);
@@ -43,13 +45,25 @@ class RunStatistics {
   Json summary(const std::string& status, const std::string& message) const;
 
  private:
+  using PhaseSeconds = std::array<double, phase_names.size()>;
+
   double wall_seconds() const;
+  void carry_grids(Archive& archive);
 
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   double earlier_seconds_ = 0;  ///< on the wall, before the run was resumed
   long resumptions_ = 0;
   std::vector<std::string> species_;
-  long cells_;
+  /// Steps and times on one grid of the run.
+  struct OnGrid {
+    std::string cells_text;
+    long cells = 0;
+    double from = 0;
+    long steps = 0;
+    PhaseSeconds seconds{};
+  };
+  std::vector<OnGrid> grids_;
+  double cell_steps_ = 0;
   long steps_ = 0;
   double time_ = 0;
   long retries_ = 0;
@@ -62,7 +76,7 @@ class RunStatistics {
   std::vector<double> volume_error_;
   double redistribution_rise_ = 0;
   double projection_rise_ = 0;
-  std::array<double, phase_names.size()> seconds_{};
+  PhaseSeconds seconds_{};
   std::array<long, phase_names.size()> iterations_{};
   std::array<int, phase_names.size()> most_iterations_{};
   long linear_iterations_ = 0;

@@ -95,7 +95,16 @@ std::vector<Flaw> flaws(const WaveShape& wave, Geometry) {
   return {};
 }
 
-/// Notes sides of the grid beyond which a shape reaches; it may cross an axis or a plane of symmetry.
+bool check_shape(const CaseConfig& config, const Shape& shape, const std::string& path, Reading& reading) {
+  const Geometry geometry = geometry_of(config.grid);
+  const auto found = std::visit([&](const auto& s) { return flaws(s, geometry); }, shape);
+  for (const Flaw& flaw : found) reading.problem(path + "." + flaw.key, flaw.message);
+  if (found.empty()) check_inside(config, shape, path, reading);
+  return found.empty();
+}
+
+}  // namespace
+
 void check_inside(const CaseConfig& config, const Shape& shape, const std::string& path, Reading& reading) {
   const Extent domain = domain_of(config.grid);
   const Geometry geometry = geometry_of(config.grid);
@@ -114,82 +123,6 @@ void check_inside(const CaseConfig& config, const Shape& shape, const std::strin
       if (mirrored || !std::isfinite(reach) || beyond <= rounding * (domain.high[d] - domain.low[d])) continue;
       reading.problem(path, std::string("reaches beyond the grid: to ") + names[d] + " = " + shortest(reach) +
                                 ", where the grid ends at " + shortest(end));
-    }
-  }
-}
-
-bool check_shape(const CaseConfig& config, const Shape& shape, const std::string& path, Reading& reading) {
-  const Geometry geometry = geometry_of(config.grid);
-  const auto found = std::visit([&](const auto& s) { return flaws(s, geometry); }, shape);
-  for (const Flaw& flaw : found) reading.problem(path + "." + flaw.key, flaw.message);
-  if (found.empty()) check_inside(config, shape, path, reading);
-  return found.empty();
-}
-
-}  // namespace
-
-namespace {
-
-/// Gaps below this part of a bubble's radius count as none.
-constexpr double touching = 1e-6;
-
-/// Points across a ball, per axis, at which it is looked for liquid.
-constexpr int samples = 21;
-
-/// Whether a bubble has points inside the grid that no fill covers.
-bool outside_liquid(const CaseConfig& config, const SphereShape& ball) {
-  const Extent domain = domain_of(config.grid);
-  const Geometry geometry = geometry_of(config.grid);
-  const bool plane = geometry != Geometry::cartesian;
-  for (int i = 0; i < samples; ++i) {
-    for (int j = 0; j < (plane ? 1 : samples); ++j) {
-      for (int k = 0; k < samples; ++k) {
-        const auto across = [&](int d, int number) {
-          return ball.center[d] + ball.radius * ((2 * number + 1.03) / samples - 1);
-        };
-        const Vec<3> point{{across(0, i), plane ? 0.5 : across(1, j), across(2, k)}};
-        double square = 0;
-        bool inside = true;
-        for (int d = 0; d < 3; ++d) {
-          if (d == 1 && plane) continue;
-          square += (point[d] - ball.center[d]) * (point[d] - ball.center[d]);
-          inside = inside && point[d] > domain.low[d] && point[d] < domain.high[d];
-        }
-        if (!inside || square > ball.radius * ball.radius) continue;
-        const bool covered = std::any_of(config.initial.begin(), config.initial.end(), [&](const InitialFill& fill) {
-          return contains(fill.shape, point, geometry);
-        });
-        if (!covered) return true;
-      }
-    }
-  }
-  return false;
-}
-
-}  // namespace
-
-void check_bubbles(const CaseConfig& config, Reading& reading) {
-  if (!reading.clean("grid") || !reading.clean("initial") || config.grid.x.empty() || config.grid.z.empty()) return;
-  const Geometry geometry = geometry_of(config.grid);
-  for (std::size_t i = 0; i < config.bubbles.size(); ++i) {
-    const std::string path = child_path("bubbles", i);
-    if (!reading.clean(path)) continue;
-    const SphereShape ball{config.bubbles[i].center, config.bubbles[i].radius};
-    if (geometry == Geometry::axisymmetric && ball.center[0] != 0) {
-      reading.problem(path + ".center",
-                      "must lie on the axis, x = 0, in axisymmetric cases, not at x = " + shortest(ball.center[0]));
-      continue;
-    }
-    // A bubble must not touch the side of the domain either.
-    check_inside(config, SphereShape{ball.center, (1 + touching) * ball.radius}, path, reading);
-    if (!reading.clean(path)) continue;
-    if (outside_liquid(config, ball)) reading.problem(path, "must lie in liquid, but reaches beyond the initial fills");
-    for (std::size_t j = 0; j < i; ++j) {
-      const SphereShape other{config.bubbles[j].center, config.bubbles[j].radius};
-      if (overlap(ball, other, domain_of(config.grid), geometry)) {
-        reading.problem(path, "overlaps " + child_path("bubbles", j) + " (" +
-                                  to_string(reading.nearest(child_path("bubbles", j)).place) + ")");
-      }
     }
   }
 }

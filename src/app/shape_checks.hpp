@@ -1,6 +1,8 @@
 #pragma once
 /// \file
 /// Whether the initial shapes of a case make sense.
+#include <string>
+
 #include "app/case_config.hpp"
 #include "core/config_codec.hpp"
 
@@ -10,8 +12,7 @@ namespace quicksand {
 /// the geometry forbids.
 void check_initial(const CaseConfig& config, Reading& reading);
 
-/// Notes bubbles that reach beyond the grid, touch a wall or an open side, do not lie in liquid, overlap, or are off
-/// the axis of an axisymmetric case.
-void check_bubbles(const CaseConfig& config, Reading& reading);
+/// Notes sides of the grid beyond which a shape reaches; it may cross an axis or a plane of symmetry.
+void check_inside(const CaseConfig& config, const Shape& shape, const std::string& path, Reading& reading);
 
 }  // namespace quicksand

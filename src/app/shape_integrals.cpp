@@ -1,6 +1,7 @@
 #include "app/shape_integrals.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace quicksand {
 
@@ -24,6 +25,48 @@ std::vector<double> crossings(double radius, double low, double high, double hei
   for (double& value : x) value = std::clamp(value, low, high);
   std::sort(x.begin(), x.end());
   return x;
+}
+
+/// Volume of the part x, y, z and beyond of a ball about the origin, all three at least 0.
+///
+/// By the divergence theorem it is a third of the radius times the curved area less the sum of each plane's distance
+/// times its area. The curved area follows from the theorem of Gauss and Bonnet: 2 pi less the angles by which its edge
+/// turns at its corners, and less the edge's geodesic curvature, which is the angle of each arc times its plane's
+/// distance.
+double corner_of_ball(double radius, double x, double y, double z) {
+  const double square = radius * radius;
+  if (x * x + y * y + z * z >= square) return 0;
+  const double at[] = {x, y, z};
+  // Where the planes of two coordinates cut the surface: the third coordinate there, by the number of the third.
+  double edge[3];
+  double curved = 2 * std::numbers::pi;
+  for (int d = 0; d < 3; ++d) {
+    const double a = at[(d + 1) % 3];
+    const double b = at[(d + 2) % 3];
+    edge[d] = std::sqrt(square - (a * a + b * b));
+    curved -= std::atan2(radius * edge[d], -a * b);
+  }
+  double volume = square * radius * curved;
+  for (int d = 0; d < 3; ++d) {
+    const int e = (d + 1) % 3;
+    const int f = (d + 2) % 3;
+    const double arc = std::atan2(edge[f], at[e]) - std::atan2(at[f], edge[e]);
+    const double triangles = at[e] * (edge[f] - at[f]) + at[f] * (edge[e] - at[e]);
+    const double plane = ((square - at[d] * at[d]) * arc - triangles) / 2;
+    volume -= at[d] * (square * arc + plane);
+  }
+  return volume / 3;
+}
+
+/// Volume of a ball about the origin within the box from there to (x, y, z); odd in each.
+double box_from_centre(double radius, double x, double y, double z) {
+  const double sign = (x < 0 ? -1 : 1) * (y < 0 ? -1 : 1) * (z < 0 ? -1 : 1);
+  x = std::abs(x);
+  y = std::abs(y);
+  z = std::abs(z);
+  const auto beyond = [&](double a, double b, double c) { return corner_of_ball(radius, a, b, c); };
+  return sign * (beyond(0, 0, 0) - beyond(x, 0, 0) - beyond(0, y, 0) - beyond(0, 0, z) + beyond(x, y, 0) +
+                 beyond(x, 0, z) + beyond(0, y, z) - beyond(x, y, z));
 }
 
 }  // namespace
@@ -64,6 +107,23 @@ double ball_per_radian(double radius, const Rectangle& rectangle) {
     volume += (outer - r0 * r0 * height) / 2;
   }
   return volume;
+}
+
+double ball_volume(double radius, const Extent& box) {
+  const Vec<3>* ends[] = {&box.low, &box.high};
+  double part[2][2][2];
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      for (int k = 0; k < 2; ++k) {
+        const double at[] = {(*ends[i])[0], (*ends[j])[1], (*ends[k])[2]};
+        part[i][j][k] = box_from_centre(radius, at[0], at[1], at[2]);
+      }
+    }
+  }
+  // Differences of differences, so that mirror images have the same volume to the last bit.
+  const auto along_x = [&](int j, int k) { return part[1][j][k] - part[0][j][k]; };
+  const auto along_y = [&](int k) { return along_x(1, k) - along_x(0, k); };
+  return along_y(1) - along_y(0);
 }
 
 Polygon corners(const Rectangle& r) { return {{r.x0, r.y0}, {r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}; }

@@ -21,6 +21,9 @@ double disc_area(double radius, const Rectangle& rectangle);
 /// Volume per radian of an (r, z) rectangle within the ball of a radius about the origin (exact).
 double ball_per_radian(double radius, const Rectangle& rectangle);
 
+/// Volume of a box within the ball of a radius about the origin (exact, up to rounding of the ball's volume).
+double ball_volume(double radius, const Extent& box);
+
 /// Corners of a rectangle in the (x, z) plane, counterclockwise.
 Polygon corners(const Rectangle& rectangle);
 /// Part of a polygon in nx x + nz z <= offset.
@@ -29,6 +32,19 @@ Polygon clip(const Polygon& polygon, double nx, double nz, double offset);
 Polygon clip(const Polygon& polygon, const Rectangle& rectangle);
 /// Integral of 1, or of x where `radial`, over a polygon (exact; negative for clockwise polygons).
 double weighted_area(const Polygon& polygon, bool radial);
+
+/// Appends to `roots` where a function that is monotone over [low, high] changes sign, if it does.
+template <class F>
+void append_root(double low, double high, std::vector<double>& roots, F&& f) {
+  constexpr int halvings = 48;
+  const bool from_below = f(low) < 0;
+  if (from_below == (f(high) < 0)) return;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = low + (high - low) / 2;
+    ((f(middle) < 0) == from_below ? low : high) = middle;
+  }
+  roots.push_back(low + (high - low) / 2);
+}
 
 /// Integral of f over [low, high] with four Gauss points in each of `parts` equal parts between consecutive breaks.
 template <class F>

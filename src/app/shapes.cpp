@@ -40,6 +40,12 @@ double farthest_corner(const Extent& box) {
   return std::hypot(far(0), far(1), far(2));
 }
 
+/// Distance of the origin to the nearest point of a box.
+double nearest_point(const Extent& box) {
+  const auto near = [&](int d) { return std::max({box.low[d], -box.high[d], 0.0}); };
+  return std::hypot(near(0), near(1), near(2));
+}
+
 /// Whether a box and the bounds of a shape share no volume, in the axes that exist.
 bool apart(const Extent& box, const Extent& shape, Geometry geometry) {
   for (int d = 0; d < 3; ++d) {
@@ -89,21 +95,8 @@ double filled(const SphereShape& shape, const Extent& box, Geometry geometry) {
   if (geometry == Geometry::axisymmetric) return ball_per_radian(shape.radius, section(centred));
   if (geometry == Geometry::planar) return disc_area(shape.radius, section(centred));
   if (farthest_corner(centred) <= shape.radius) return measure(box, geometry);
-  const double low = std::max(centred.low[2], -shape.radius);
-  const double high = std::min(centred.high[2], shape.radius);
-  const Rectangle base{centred.low[0], centred.high[0], centred.low[1], centred.high[1]};
-  const auto radius_at = [&](double z) { return std::sqrt(std::max(0.0, (shape.radius - z) * (shape.radius + z))); };
-  // The area is smooth between the heights at which the circle passes a side or a corner of the base.
-  std::vector<double> breaks;
-  for (const double x : {base.x0, base.x1, 0.0}) {
-    for (const double y : {base.y0, base.y1, 0.0}) {
-      const double squared = shape.radius * shape.radius - x * x - y * y;
-      if (squared < 0) continue;
-      breaks.push_back(std::sqrt(squared));
-      breaks.push_back(-std::sqrt(squared));
-    }
-  }
-  return integrate_between(low, high, breaks, 4, [&](double z) { return disc_area(radius_at(z), base); });
+  if (nearest_point(centred) >= shape.radius) return 0;
+  return ball_volume(shape.radius, centred);
 }
 
 double filled(const HalfSpaceShape& shape, const Extent& box, Geometry geometry) {
@@ -117,6 +110,18 @@ double filled(const HalfSpaceShape& shape, const Extent& box, Geometry geometry)
     const double offset = n[0] * shape.point[0] + n[2] * shape.point[2] + along_y;
     return weighted_area(clip(rectangle, n[0], n[2], offset), radial);
   };
+  if (geometry == Geometry::cartesian) {
+    // Most cells do not meet the plane.
+    double nearest = 0;
+    double farthest = 0;
+    for (int d = 0; d < 3; ++d) {
+      const double ends[] = {n[d] * (box.low[d] - shape.point[d]), n[d] * (box.high[d] - shape.point[d])};
+      nearest += std::min(ends[0], ends[1]);
+      farthest += std::max(ends[0], ends[1]);
+    }
+    if (nearest >= 0) return 0;
+    if (farthest <= 0) return measure(box, geometry);
+  }
   std::vector<double> breaks;
   if (geometry == Geometry::cartesian && n[1] != 0) {
     for (const PolygonPoint& p : rectangle) {
@@ -132,6 +137,33 @@ double filled(const PolygonShape& shape, const Extent& box, Geometry geometry) {
   return std::abs(area) * (box.high[1] - box.low[1]);
 }
 
+/// Waves whose phase changes more than this in a cell are not resolved at all.
+constexpr double most_phase = 50;
+
+/// Horizontal positions between which the part of a wave within a box is smooth: its crests, troughs, and where it
+/// passes the bottom and the top of the box.
+std::vector<double> wave_breaks(const WaveShape& wave, const Extent& box, Geometry geometry) {
+  const double low = box.low[0];
+  const double high = box.high[0];
+  std::vector<double> turns{low};
+  const auto slope = [&](double x) {
+    const double kx = wave.wavenumber * x;
+    return geometry == Geometry::axisymmetric ? std::cyl_bessel_j(1, std::abs(kx)) : std::sin(kx);
+  };
+  const int parts = 1 + static_cast<int>(wave.wavenumber * (high - low));  // of less than a third of a half wave
+  for (int k = 0; k < parts; ++k) {
+    append_root(low + (high - low) * k / parts, low + (high - low) * (k + 1) / parts, turns, slope);
+  }
+  turns.push_back(high);
+  std::vector<double> breaks = turns;
+  for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+    for (const double z : {box.low[2], box.high[2]}) {
+      append_root(turns[i], turns[i + 1], breaks, [&](double x) { return surface(wave, x, geometry) - z; });
+    }
+  }
+  return breaks;
+}
+
 double filled(const WaveShape& shape, const Extent& box, Geometry geometry) {
   const double trough = shape.level - std::abs(shape.amplitude);
   const double crest = shape.level + std::abs(shape.amplitude);
@@ -145,7 +177,11 @@ double filled(const WaveShape& shape, const Extent& box, Geometry geometry) {
     const double height = overlap_1d(box.low[2], box.high[2], below ? *shape.bottom : z, below ? z : *shape.top);
     return height * (geometry == Geometry::axisymmetric ? x : 1.0);
   };
-  return integrate_between(box.low[0], box.high[0], {}, 64, column) * (box.high[1] - box.low[1]);
+  const bool resolved = shape.wavenumber * (box.high[0] - box.low[0]) < most_phase;
+  const double integral = resolved
+                              ? integrate_between(box.low[0], box.high[0], wave_breaks(shape, box, geometry), 4, column)
+                              : integrate_between(box.low[0], box.high[0], {}, 64, column);
+  return integral * (box.high[1] - box.low[1]);
 }
 
 bool inside(const BoxShape& s, const Vec<3>& p, Geometry geometry) {

@@ -73,8 +73,9 @@ struct Extent {
   Vec<3> high;
 };
 
-/// Fraction of a box that a shape fills, weighted with r for `Geometry::axisymmetric`. Exact up to rounding for all but
-/// spheres in 3-D (relative error below 1e-6) and waves (below 1e-5 of the cell).
+/// Fraction of a box that a shape fills, weighted with r for `Geometry::axisymmetric`. Exact up to rounding; for
+/// balls in 3-D up to rounding of the ball's volume, below 1e-9 of the cell up to 80 cells per radius, for waves to
+/// 1e-10.
 double fraction(const Shape& shape, const Extent& box, Geometry geometry);
 
 /// Fraction of an owned cell that a shape fills.

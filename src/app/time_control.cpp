@@ -34,12 +34,22 @@ void SteadyState::exchange(Archive& archive) {
   carry(archive, "steady/unsteadiness", unsteadiness_);
 }
 
-TimeControl::TimeControl(const TimeSettings& time, const OutputSchedule& fields) : time_(time), fields_(fields) {}
+TimeControl::TimeControl(const TimeSettings& time, const OutputSchedule& fields, std::vector<double> stops)
+    : time_(time), fields_(fields), stops_(std::move(stops)) {}
 
 double TimeControl::next_output() const {
   if (fields_.every) return static_cast<double>(outputs_done_) * *fields_.every;
   const auto n = static_cast<std::size_t>(outputs_done_);
   return n < fields_.times.size() ? fields_.times[n] : std::numeric_limits<double>::infinity();
+}
+
+double TimeControl::next_stop(double now) const {
+  double next = next_output() > now ? std::min(time_.end, next_output()) : time_.end;
+  const double slack = time_slack * time_.end;
+  for (const double stop : stops_) {
+    if (stop > now + slack) next = std::min(next, stop);
+  }
+  return next;
 }
 
 double TimeControl::next_step(double now, double last_dt, double stable) const {
@@ -55,7 +65,7 @@ double TimeControl::next_step(double now, double last_dt, double stable) const {
       throw NumericalError("the stable time step " + number_text(stable) + " is below time.min_step " +
                            number_text(*time_.min_step));
     }
-    until = std::min(left, next_output() > now ? next_output() - now : left);
+    until = next_stop(now) - now;
   }
   if (dt * (1 + step_slack) >= until) {
     dt = until;

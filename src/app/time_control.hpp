@@ -30,11 +30,12 @@ class SteadyState {
 
 /// Decides how long the next step is: the case's fixed step whatever the CFL number, or the stable one within the
 /// case's limits. A step is changed so that one ends at the end of the run and, with steps by CFL number, at every
-/// output time: it takes all that is left up to there when that is at most a thousandth longer than the step, so that
-/// no sliver stays.
+/// output time and stop: it takes all that is left up to there when that is at most a thousandth longer than the step,
+/// so that no sliver stays.
 class TimeControl {
  public:
-  TimeControl(const TimeSettings& time, const OutputSchedule& fields);
+  /// \param stops  further times at which steps by CFL number end, increasing
+  TimeControl(const TimeSettings& time, const OutputSchedule& fields, std::vector<double> stops = {});
 
   /// CFL number of the case; 1, the limit of convection, where steps are fixed.
   double cfl() const { return time_.cfl.value_or(1.0); }
@@ -54,9 +55,12 @@ class TimeControl {
  private:
   /// The earliest output time after those reported; infinite if there is none.
   double next_output() const;
+  /// The time after `now` at which a step must end.
+  double next_stop(double now) const;
 
   TimeSettings time_;
   OutputSchedule fields_;
+  std::vector<double> stops_;
   long outputs_done_ = 0;
 };
 

@@ -6,47 +6,11 @@
 #include <system_error>
 
 #include "core/errors.hpp"
+#include "core/unit_database.hpp"
 
 namespace quicksand {
 
 namespace {
-
-struct Symbol {
-  std::string_view name;
-  Unit unit;
-};
-
-constexpr double inch = 0.0254;
-constexpr double pound = 0.45359237;
-constexpr double standard_gravity = 9.80665;
-
-constexpr Symbol symbols[] = {
-    {"m", {dimension::length, 1}},
-    {"km", {dimension::length, 1e3}},
-    {"cm", {dimension::length, 1e-2}},
-    {"mm", {dimension::length, 1e-3}},
-    {"um", {dimension::length, 1e-6}},
-    {"in", {dimension::length, inch}},
-    {"ft", {dimension::length, 12 * inch}},
-    {"s", {dimension::time, 1}},
-    {"ms", {dimension::time, 1e-3}},
-    {"us", {dimension::time, 1e-6}},
-    {"min", {dimension::time, 60}},
-    {"kg", {dimension::mass, 1}},
-    {"g", {dimension::mass, 1e-3}},
-    {"lb", {dimension::mass, pound}},
-    {"N", {{1, 1, -2}, 1}},
-    {"Pa", {dimension::pressure, 1}},
-    {"hPa", {dimension::pressure, 1e2}},
-    {"kPa", {dimension::pressure, 1e3}},
-    {"MPa", {dimension::pressure, 1e6}},
-    {"bar", {dimension::pressure, 1e5}},
-    {"atm", {dimension::pressure, 101325}},
-    {"psi", {dimension::pressure, pound* standard_gravity / (inch * inch)}},
-    {"ftH2O", {dimension::pressure, 12 * inch * 1000 * standard_gravity}},  // conventional water, 1000 kg/m^3
-    {"P", {dimension::viscosity, 0.1}},
-    {"cP", {dimension::viscosity, 1e-3}},
-};
 
 struct Name {
   Dimension dimension;
@@ -66,20 +30,13 @@ constexpr Name names[] = {
     {dimension::viscosity, "a viscosity (such as Pa s)"},
 };
 
-Unit find_symbol(std::string_view name) {
-  std::string known;
-  for (const Symbol& symbol : symbols) {
-    if (symbol.name == name) return symbol.unit;
-    known += (known.empty() ? "" : ", ") + std::string(symbol.name);
-  }
-  throw InputError("unknown unit '" + std::string(name) + "'; known are " + known);
-}
-
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
   return text;
 }
+
+bool is_part_of_word(char ch) { return std::isalnum(static_cast<unsigned char>(ch)) || ch == '_'; }
 
 /// Takes `^n` from the front of the text; 1 if there is none.
 int take_exponent(std::string_view& text) {
@@ -118,11 +75,12 @@ Unit parse_unit(std::string_view text) {
       text.remove_prefix(1);
     } else {
       std::size_t length = 0;
-      while (length < text.size() && std::isalnum(static_cast<unsigned char>(text[length]))) ++length;
+      while (length < text.size() && is_part_of_word(text[length])) ++length;
       if (length == 0) throw InputError("unit has an unexpected '" + std::string(1, ch) + "'");
-      const std::string_view name = text.substr(0, length);
+      const std::string name(text.substr(0, length));
       text.remove_prefix(length);
-      const Unit symbol = name == "1" ? Unit{} : find_symbol(name);
+      if (name != "1" && std::isdigit(static_cast<unsigned char>(ch))) throw InputError("unknown unit '" + name + "'");
+      const Unit symbol = name == "1" ? Unit{} : find_unit(name);
       const int power = sign * take_exponent(text);
       unit.dimension.mass += power * symbol.dimension.mass;
       unit.dimension.length += power * symbol.dimension.length;

@@ -30,6 +30,13 @@ inline constexpr Dimension pressure{1, -1, -2};
 inline constexpr Dimension viscosity{1, -1, -1};
 }  // namespace dimension
 
+/// Sizes in SI of the units in which constants of explosives are listed.
+namespace traditional {
+inline constexpr double foot = 0.3048;
+inline constexpr double pound = 0.45359237;
+inline constexpr double foot_of_water = 1000 * 9.80665 * foot;  ///< conventional water and standard gravity
+}  // namespace traditional
+
 /// Name of a dimension with an example unit, e.g. `a pressure (such as Pa)`.
 std::string to_string(const Dimension& dimension);
 
@@ -39,7 +46,7 @@ struct Unit {
   double factor = 1;
 };
 
-/// Reads a product of unit symbols with integer powers, such as `kg/m^3`, `Pa s`, `m*s^-2`, `1/in`.
+/// Reads a product of units with integer powers, such as `kg/m^3`, `Pa s`, `m*s^-2`, `1/in`; see find_unit().
 /// \throws InputError naming the symbol that is not known
 Unit parse_unit(std::string_view text);
 

@@ -3,29 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/slope.hpp"
+
 namespace quicksand {
 
 namespace {
 
 /// Cells with less liquid move ballistically: no slopes, no acceleration in the predictor.
 constexpr double ballistic_fraction = 0.5;
-
-double limit_mc(double low, double centre, double high) {
-  if (low * high <= 0) return 0;
-  const double magnitude = std::min({std::abs(low), std::abs(centre), std::abs(high)});
-  return low > 0 ? magnitude : -magnitude;
-}
-
-/// Limited derivative of q along d: monotonized central differences on widths that may vary.
-template <int Dim>
-double slope(const Grid<Dim>& grid, const CellField& q, Cell c, int d) {
-  const Step e = grid.step(d);
-  const double w = grid.width(d, c);
-  const double w_low = grid.width(d, c - e);
-  const double w_high = grid.width(d, c + e);
-  const double centre = (q[c + e] - q[c - e]) / (w + 0.5 * (w_low + w_high));
-  return limit_mc(2 * (q[c] - q[c - e]) / w, centre, 2 * (q[c + e] - q[c]) / w);
-}
 
 /// The slopes that the predictor may use in a cell.
 template <int Dim>
@@ -38,7 +23,7 @@ class Reconstruction {
   double velocity_slope(const CellField& q, Cell c, int d) const {
     const Step e = grid_.step(d);
     const bool apart = total_[c - e] < empty_fraction || total_[c + e] < empty_fraction;
-    return ballistic(c) || apart ? 0 : slope(grid_, q, c, d);
+    return ballistic(c) || apart ? 0 : limited_slope(grid_, q, c, d);
   }
   /// Half-time velocity component on the face of c along d; side +1 high, -1 low.
   double face_velocity(const CellField& u_half, const CellField& u, Cell c, int d, int side) const {

@@ -139,6 +139,19 @@ void Flow<Dim>::initialize() {
 }
 
 template <int Dim>
+void Flow<Dim>::resume(std::vector<double> escaped) {
+  escaped_ = std::move(escaped);
+  refresh();
+  if (has_bubbles(gas_parameters(), state_.gas)) {
+    label_gas(domain_, total_, parameters_.liquid_threshold, state_.gas.region, gas_labels_);
+  }
+  find_elements(state_, total_, interfaces_, elements_);
+  mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
+  volume_ = volumes(domain_.grid, state_.phi, escaped_);
+  energy_scale_ = energy_at_stake(domain_.grid, rho_, state_, parameters_.gravity);
+}
+
+template <int Dim>
 StepReport Flow<Dim>::advance(double dt) {
   try {
     return step(dt);
@@ -226,7 +239,8 @@ StepReport Flow<Dim>::step(double dt) {
   const ConvectionInput<Dim> in{state_.phi, total_, rho_, state_.u, state_.acceleration, liquid_, interfaces_};
   predict_velocities(domain_, in, dt, convection_, face_velocities_);
   clock(Phase::convection);
-  report.mac = project_face_velocities(domain_, rho_, liquid_, par.linear, mac_, face_velocities_.mac);
+  find_voids(domain_, total_, liquid_, dt, mac_.inflow);
+  report.mac = project_face_velocities(domain_, rho_, liquid_, mac_.inflow, par.linear, mac_, face_velocities_.mac);
   clock(Phase::mac_projection);
   require_finite(grid, face_velocities_.mac);
   split_velocities(domain_, in, convection_, face_velocities_);

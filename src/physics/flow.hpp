@@ -88,6 +88,7 @@ class Flow {
   const CellField& total() const { return total_; }
   const CellField& density() const { return rho_; }
   const CellMask& liquid() const { return liquid_; }
+  const Interfaces<Dim>& interfaces() const { return interfaces_; }
   /// Regions of gas, where there are bubbles.
   const GasLabels& gas_labels() const { return gas_labels_; }
   GasParameters gas_parameters() const {
@@ -105,6 +106,9 @@ class Flow {
   /// the fractions, and the pressure and acceleration under gravity. \throws NumericalError when the pressure solve
   /// fails
   void initialize();
+  /// Makes the flow ready to go on from a state() that was set as a whole, velocities, pressure and gas included.
+  /// \param escaped  as escaped()
+  void resume(std::vector<double> escaped);
   /// Advances by dt. The state is left as it was when this throws.
   /// \throws NumericalError when a solve fails, a value is not finite, or volume or energy are not kept
   StepReport advance(double dt);
@@ -120,8 +124,6 @@ class Flow {
   void exchange(Archive& archive);
 
  private:
-  /// What follows from a state that was read.
-  void recover();
   /// Ghost cells, total(), density() and liquid() of the current state.
   void refresh();
   /// Where pressure acts for a state's fractions and gas, ghost cells filled.

@@ -39,30 +39,17 @@ void Flow<Dim>::exchange(Archive& archive) {
   carry(archive, state_);
   carry(archive, state_.gas);
   carry_numbers(archive, "flow/escaped", escaped_);
-  carry(archive, "flow/energy_scale", energy_scale_);
   // Where the solves of a step start from.
   carry(archive, "guess/mac_potential", mac_.potential);
   carry(archive, "guess/redistribution", redistribution_.H_species);
   carry(archive, "guess/plastic_stress", diffusion_.stress);
   carry(archive, "guess/multiplier", diffusion_.multiplier);
   carry(archive, "guess/penalty", diffusion_.penalty);
-  if (archive.loading()) recover();
-}
-
-template <int Dim>
-void Flow<Dim>::recover() {
-  refresh();
-  volume_ = volumes(domain_.grid, state_.phi, escaped_);
-  if (has_bubbles(gas_parameters(), state_.gas)) {
-    label_gas(domain_, total_, parameters_.liquid_threshold, state_.gas.region, gas_labels_);
-  }
-  find_elements(state_, total_, interfaces_, elements_);
-  mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
+  if (archive.loading()) resume(escaped_);
+  carry(archive, "flow/energy_scale", energy_scale_);  // of the whole run, which resume() begins anew
 }
 
 template void Flow<2>::exchange(Archive&);
 template void Flow<3>::exchange(Archive&);
-template void Flow<2>::recover();
-template void Flow<3>::recover();
 
 }  // namespace quicksand

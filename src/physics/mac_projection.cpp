@@ -4,6 +4,33 @@ namespace quicksand {
 
 namespace {
 
+/// Voids of a greater part of a cell may be bubbles that the grid no longer resolves.
+constexpr double largest_void = 0.25;
+
+/// Share of a void that is filled in a step.
+constexpr double filled_share = 0.5;
+
+/// Whether all cells around one are in D.
+template <int Dim>
+bool inside(const Layout<Dim>& layout, const CellMask& liquid, Cell c) {
+  constexpr int count = Dim == 2 ? 9 : 27;
+  for (int k = 0; k < count; ++k) {
+    Cell at = c;
+    for (int d = 0, rest = k; d < Dim; ++d, rest /= 3) at = at + (rest % 3 - 1) * layout.step(d);
+    if (!liquid[at]) return false;
+  }
+  return true;
+}
+
+template <int Dim>
+bool has_surface(const Domain<Dim>& domain, const CellMask& liquid) {
+  for (int d = 0; d < Dim; ++d) {
+    if (is_open(domain.sides.at(d, 0)) || is_open(domain.sides.at(d, 1))) return true;
+  }
+  const Box<Dim> cells = domain.grid.cells();
+  return maximum<Cell>(domain.layout(), cells, 0.0, [&](Cell c) { return liquid[c] ? 0.0 : 1.0; }) > 0;
+}
+
 /// 1 / (rho h) over the liquid part of the way between the two cells of a face; 0 where the velocity is given (closed
 /// and inflow sides) and outside D. On open sides q = 0.
 template <int Dim>
@@ -38,8 +65,19 @@ void assemble(const Domain<Dim>& domain, const CellField& rho, const CellMask& l
 }  // namespace
 
 template <int Dim>
+void find_voids(const Domain<Dim>& domain, const CellField& total, const CellMask& liquid, double dt,
+                CellField& inflow) {
+  const Grid<Dim>& grid = domain.grid;
+  const bool fill = has_surface(domain, liquid);
+  for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
+    const bool lacks = fill && total[c] < 1 && total[c] > 1 - largest_void && inside(domain.layout(), liquid, c);
+    inflow[c] = lacks ? filled_share * (1 - total[c]) * grid.volume(c) / dt : 0.0;
+  });
+}
+
+template <int Dim>
 SolveReport project_face_velocities(const Domain<Dim>& domain, const CellField& rho, const CellMask& liquid,
-                                    const SolveOptions& options, MacProjectionWork<Dim>& work,
+                                    const CellField& inflow, const SolveOptions& options, MacProjectionWork<Dim>& work,
                                     FaceScalars<Dim>& u_mac) {
   const Grid<Dim>& grid = domain.grid;
   work.matrix.box = bounding_box<Cell>(domain.layout(), grid.cells(), [&](Cell c) { return liquid[c] != 0; });
@@ -51,7 +89,7 @@ SolveReport project_face_velocities(const Domain<Dim>& domain, const CellField& 
       const Face above = low_face(c + grid.step(d));
       out += domain.aperture[d][above] * u_mac[d][above] - domain.aperture[d][low_face(c)] * u_mac[d][low_face(c)];
     }
-    work.divergence[c] = liquid[c] ? -out : 0.0;
+    work.divergence[c] = liquid[c] ? -out - inflow[c] : 0.0;
     if (!liquid[c]) work.potential[c] = 0;
   });
   const SolveReport report = solve(work.matrix, work.divergence, work.potential, options);
@@ -68,9 +106,13 @@ SolveReport project_face_velocities(const Domain<Dim>& domain, const CellField& 
   return report;
 }
 
-template SolveReport project_face_velocities(const Domain<2>&, const CellField&, const CellMask&, const SolveOptions&,
-                                             MacProjectionWork<2>&, FaceScalars<2>&);
-template SolveReport project_face_velocities(const Domain<3>&, const CellField&, const CellMask&, const SolveOptions&,
-                                             MacProjectionWork<3>&, FaceScalars<3>&);
+#define QUICKSAND_INSTANTIATE(Dim)                                                                             \
+  template void find_voids(const Domain<Dim>&, const CellField&, const CellMask&, double, CellField&);         \
+  template SolveReport project_face_velocities(const Domain<Dim>&, const CellField&, const CellMask&,          \
+                                               const CellField&, const SolveOptions&, MacProjectionWork<Dim>&, \
+                                               FaceScalars<Dim>&);
+QUICKSAND_INSTANTIATE(2)
+QUICKSAND_INSTANTIATE(3)
+#undef QUICKSAND_INSTANTIATE
 
 }  // namespace quicksand

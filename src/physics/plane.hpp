@@ -45,32 +45,35 @@ double cut_fraction(const Vec<Dim>& m, double alpha) {
   return cube_fraction(m[0] / norm, m[1] / norm, Dim == 3 ? m[Dim - 1] / norm : 0.0, alpha / norm);
 }
 
-/// The alpha for which cut_fraction(m, alpha) = fraction, to round-off; inverse by bracketed secant steps, since the
-/// fraction is monotone.
+/// Where an increasing function passes zero, to round-off, by bracketed secant steps. \param error  the function
+/// \param low, high  bracket, with the function's values there \param start  first guess
+template <class Error>
+double rising_root(Error&& error, double low, double high, double low_error, double high_error, double start) {
+  double x = start;
+  for (int k = 0; k < 60; ++k) {
+    const double at_x = error(x);
+    if (std::abs(at_x) < 1e-14) break;
+    if (at_x < 0) {
+      low = x;
+      low_error = at_x;
+    } else {
+      high = x;
+      high_error = at_x;
+    }
+    // Every third step halves the bracket, where the secant would creep.
+    const double secant = low + (high - low) * low_error / (low_error - high_error);
+    x = k % 3 == 2 ? 0.5 * (low + high) : secant;
+  }
+  return x;
+}
+
+/// The alpha for which cut_fraction(m, alpha) = fraction, to round-off.
 template <int Dim>
 double plane_offset(const Vec<Dim>& m, double fraction) {
   double norm = 0;
   for (int d = 0; d < Dim; ++d) norm += m[d];
-  double low = 0;
-  double high = norm;
-  double low_error = -fraction;
-  double high_error = 1 - fraction;
-  double alpha = fraction * norm;
-  for (int k = 0; k < 60; ++k) {
-    const double error = cut_fraction(m, alpha) - fraction;
-    if (std::abs(error) < 1e-14) break;
-    if (error < 0) {
-      low = alpha;
-      low_error = error;
-    } else {
-      high = alpha;
-      high_error = error;
-    }
-    // Every third step halves the bracket, where the secant would creep.
-    const double secant = low + (high - low) * low_error / (low_error - high_error);
-    alpha = k % 3 == 2 ? 0.5 * (low + high) : secant;
-  }
-  return alpha;
+  return rising_root([&](double alpha) { return cut_fraction(m, alpha) - fraction; }, 0.0, norm, -fraction,
+                     1 - fraction, fraction * norm);
 }
 
 }  // namespace quicksand

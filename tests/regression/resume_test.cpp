@@ -53,7 +53,7 @@ void expect_same_bits(const CaseConfig& config, int interruptions) {
     const std::size_t at = k == 0 ? 0 : std::uniform_int_distribution<std::size_t>(1, last - 1)(random);
     SCOPED_TRACE("interrupted after step " + std::to_string(at) + " of " + std::to_string(last));
     const testing::Threads threads(k % 2 == 0 ? 1 : 2);
-    Flow<Dim> resumed = empty_flow<Dim>(config, make_grid<Dim>(config.grid));
+    Flow<Dim> resumed = empty_flow<Dim>(config, Domain<Dim>(make_grid<Dim>(config.grid), make_sides<Dim>(config)));
     MemoryArchive archive = memories[at];
     resumed.exchange(archive);
     march(config, resumed, [&](long step) {

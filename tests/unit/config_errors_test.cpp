@@ -192,7 +192,7 @@ TEST(ConfigErrors, UnitsMustFitTheQuantity) {
   const std::string si = with("units: none\n", "");
   EXPECT_NE(error_of(si, {"gravity=3 kg"}).find("acceleration"), std::string::npos);
   EXPECT_NE(error_of(si, {"gravity=3 kg"}).find("'kg' is a mass"), std::string::npos);
-  EXPECT_NE(error_of(si, {"grid.x.to=3 parsec"}).find("unknown unit 'parsec'"), std::string::npos);
+  EXPECT_NE(error_of(si, {"grid.x.to=3 parsek"}).find("unknown unit 'parsek'"), std::string::npos);
   EXPECT_NE(error_of(si, {"species.0.concentration={yield_exponent: 1 m}"}).find("plain number"), std::string::npos);
 }
 

@@ -40,8 +40,8 @@ struct Convection {
     fill_acceleration_ghosts(domain.grid, domain.sides, acceleration);
     predict_velocities(domain, input(), dt, work, faces);
     MacProjectionWork<Dim> mac(domain.layout());
-    project_face_velocities(domain, mixture.rho, mixture.liquid, {{.relative = 1e-12}, Method::automatic}, mac,
-                            faces.mac);
+    project_face_velocities(domain, mixture.rho, mixture.liquid, mac.inflow, {{.relative = 1e-12}, Method::automatic},
+                            mac, faces.mac);
     split_velocities(domain, input(), work, faces);
     convect(domain, mixture.species, input(), dt, faces, work, phi_tilde, momentum, escaped);
   }

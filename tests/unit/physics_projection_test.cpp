@@ -147,7 +147,7 @@ void expect_no_divergence(const Mixture<Dim>& mixture) {
   FaceScalars<Dim> u = rough_faces(mixture.domain);
   ASSERT_GT(divergence(mixture, u), 0.1);
   MacProjectionWork<Dim> work(mixture.domain.layout());
-  project_face_velocities(mixture.domain, mixture.rho, mixture.liquid, sharp, work, u);
+  project_face_velocities(mixture.domain, mixture.rho, mixture.liquid, work.inflow, sharp, work, u);
   EXPECT_LE(divergence(mixture, u), 1e-9);
   for (int d = 0; d < Dim; ++d) {
     for_each<Face>(mixture.domain.layout(), mixture.domain.grid.faces(d), [&](Face f) {
@@ -175,7 +175,7 @@ TEST(PhysicsMacProjection, FacesBetweenGasCellsAreLeftAlone) {
   const FaceScalars<2> before = rough_faces(domain);
   FaceScalars<2> after = before;
   MacProjectionWork<2> work(domain.layout());
-  project_face_velocities(domain, mixture.rho, mixture.liquid, sharp, work, after);
+  project_face_velocities(domain, mixture.rho, mixture.liquid, work.inflow, sharp, work, after);
   for (int d = 0; d < 2; ++d) {
     for_each<Face>(domain.layout(), domain.grid.faces(d), [&](Face f) {
       const Cell high = high_cell(f);

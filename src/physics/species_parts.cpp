@@ -1,0 +1,79 @@
+#include "physics/species_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quicksand {
+
+namespace {
+
+/// A region may stick out of one that contains it by this part of a cell: the round-off of its plane.
+constexpr double crossing = 1e-12;
+
+}  // namespace
+
+template <int Dim>
+SpeciesParts<Dim>::SpeciesParts(const GridOverlap<Dim>& overlap, const Fractions& phi,
+                                const Interfaces<Dim>& interfaces)
+    : overlap_(overlap), phi_(phi), interfaces_(interfaces), mixed_(overlap.source().layout()) {
+  for (std::size_t k = 0; k < phi.size(); ++k) {
+    offset_.push_back(interfaces.surface[k].offset);
+    place_planes(k);
+  }
+  find_mixed();
+}
+
+template <int Dim>
+double SpeciesParts<Dim>::filled(std::size_t k, const GridPart<Dim>& part, double offset) const {
+  const Surface<Dim>& surface = interfaces_.surface[k];
+  const Cell c = part.source;
+  if (!surface.cuts(c)) return interfaces_.region[k][c];
+  // The part as a unit cube of its own, mirrored along axes where the normal is negative.
+  Vec<Dim> m;
+  for (int d = 0; d < Dim; ++d) {
+    const double n = surface.normal[d][c];
+    m[d] = std::abs(n) * (part.high[d] - part.low[d]);
+    offset -= n * (n >= 0 ? part.low[d] : part.high[d]);
+  }
+  return cut_fraction(m, offset);
+}
+
+template <int Dim>
+void SpeciesParts<Dim>::place_planes(std::size_t k) {
+  const Grid<Dim>& grid = overlap_.source();
+  const Surface<Dim>& surface = interfaces_.surface[k];
+  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+    if (!surface.cuts(c)) return;
+    double low = 0;
+    double high = 0;
+    for (int d = 0; d < Dim; ++d) (surface.normal[d][c] < 0 ? low : high) += surface.normal[d][c];
+    const double fraction = interfaces_.region[k][c];
+    const auto error = [&](double offset) {
+      double volume = 0;
+      overlap_.for_parts_of_source(i,
+                                   [&](const GridPart<Dim>& part) { volume += part.volume * filled(k, part, offset); });
+      return volume / grid.volume(c) - fraction;
+    };
+    offset_[k][c] = rising_root(error, low, high, -fraction, 1 - fraction, surface.offset[c]);
+  });
+}
+
+template <int Dim>
+void SpeciesParts<Dim>::find_mixed() {
+  const Grid<Dim>& grid = overlap_.source();
+  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+    overlap_.for_parts_of_source(i, [&](const GridPart<Dim>& part) {
+      const double share = part.volume / grid.volume(c);
+      for (std::size_t k = 1; k < species(); ++k) {
+        const double excess = share * (filled(k - 1, part) - filled(k, part));
+        // Fractions may be below zero by round-off: that is no crossing.
+        if (excess > crossing + std::max(-phi_[k][c], 0.0)) mixed_[c] = 1;
+      }
+    });
+  });
+}
+
+template class SpeciesParts<2>;
+template class SpeciesParts<3>;
+
+}  // namespace quicksand
