@@ -20,8 +20,16 @@ CFL = "time={{end: {0}, cfl: 0.3, max_step: 0.005}}"
 CASES = {
     "slug/case_e": 1.0,
     "slug/case_e_bingham": 0.2,
-    "bubbles/free_ball": 0.8,
+    "bubbles/free_ball": 1.2,
     "slug/case_e_3d": 0.06,
+}
+# The bubble grows out of a first grid, goes on to a second, and at a given time to a third.
+SETTINGS = {
+    "bubbles/free_ball": [
+        "bubbles.0.pressure=60",
+        "regrid={bubble_cells: 10}",
+        "stages=[{until: 1, grid: {x: {from: 0, to: 6.25, cells: 50}, z: {from: 0, to: 6.25, cells: 50}}}]",
+    ],
 }
 
 
@@ -34,8 +42,9 @@ class InterruptionTest(unittest.TestCase):
     def command(self, case, *options, end=None, every=None):
         end = end or CASES[case]
         every = every or end / 5
-        return [PROGRAM, "run", f"{CONFIGS}/{case}.yaml", "--set", CFL.format(end), "--set",
-                OUTPUT.format("R", every, every), "--threads", "1", *options]
+        settings = [CFL.format(end), OUTPUT.format("R", every, every), *SETTINGS.get(case, [])]
+        return [PROGRAM, "run", f"{CONFIGS}/{case}.yaml", *(f"--set={setting}" for setting in settings), "--threads", "1",
+                *options]
 
     def start(self, arguments, **options):
         return subprocess.Popen(arguments, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
