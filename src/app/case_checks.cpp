@@ -3,6 +3,7 @@
 
 #include "app/bubble_checks.hpp"
 #include "app/case_codec.hpp"
+#include "app/crater_codec.hpp"
 #include "app/grid_checks.hpp"
 #include "app/shape_checks.hpp"
 #include "core/errors.hpp"
@@ -184,6 +185,7 @@ void check_case(const CaseConfig& config, Reading& reading) {
   check_bubbles(config, reading);
   check_time(config.time, reading);
   check_output(config, reading);
+  check_crater(config, reading);
 }
 
 }  // namespace quicksand

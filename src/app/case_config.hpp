@@ -119,11 +119,19 @@ struct CheckpointSettings {
   double wall_interval = 900;   ///< seconds on the wall
 };
 
+/// What is measured of the crater in a bed.
+struct CraterSettings {
+  std::vector<std::string> species;  ///< what the bed is made of
+  std::optional<double> level;       ///< z of the undisturbed bed; the initial bed's median height where absent
+  std::optional<double> every;       ///< interval; whenever fields are written where absent
+};
+
 struct OutputSettings {
   std::string directory = "results";
   OutputSchedule fields;
   CheckpointSettings checkpoint;
   bool history = true;
+  std::optional<CraterSettings> crater;
 };
 
 struct CaseConfig {

@@ -1,4 +1,5 @@
 #include "app/case_codec.hpp"
+#include "app/crater_codec.hpp"
 
 namespace quicksand {
 
@@ -20,6 +21,7 @@ Codec<OutputSettings> output_codec() {
       defaulted("checkpoint", &OutputSettings::checkpoint, checkpoint,
                 "when checkpoints are written, from which an interrupted run goes on"),
       defaulted("history", &OutputSettings::history, flag(), "whether history.csv is written"),
+      maybe("crater", &OutputSettings::crater, crater_codec(), "the crater in a bed, measured"),
   });
 }
 

@@ -23,7 +23,8 @@ bool is_part(const fs::path& file) { return file.extension() == ".part" && file.
 bool is_result(const fs::path& file) {
   const std::string name = file.filename().string();
   if (is_part(file)) return true;
-  for (const char* table : {"case.yaml", "summary.json", "history.csv", "bubbles.csv", "events.csv", "fields.xdmf"}) {
+  for (const char* table : {"case.yaml", "summary.json", "history.csv", "bubbles.csv", "events.csv", "crater.csv",
+                            "crater_profiles.csv", "fields.xdmf"}) {
     if (name == table) return true;
   }
   return file.extension() == ".h5" &&

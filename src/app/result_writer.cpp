@@ -61,10 +61,10 @@ ResultWriter<Dim>::ResultWriter(const CaseConfig& config, std::filesystem::path 
     : config_(config), folder_(std::move(folder)), series_(folder_) {
   write_text_file(folder_ / "case.yaml", to_yaml(config));
   if (last_step) series_.write();
-  if (!config.output.history) return;
-  history_.emplace(folder_ / "history.csv", history_columns(config), last_step);
+  if (config.output.history) history_.emplace(folder_ / "history.csv", history_columns(config), last_step);
   const bool bubbles = !config.bubbles.empty() || !config.charges.empty() || config.trapped_gas.adiabatic;
-  if (bubbles) bubbles_.emplace(folder_, last_step);
+  if (config.output.history && bubbles) bubbles_.emplace(folder_, last_step);
+  if (config.output.crater) crater_.emplace(config, folder_, last_step);
 }
 
 template <int Dim>
@@ -125,6 +125,7 @@ std::pair<std::filesystem::path, std::filesystem::path> ResultWriter<Dim>::write
 template <int Dim>
 void ResultWriter<Dim>::append_history(const Flow<Dim>& flow, const Diagnostics& diagnostics,
                                        const StepReport& report) {
+  if (crater_) crater_->append_when_due(flow);
   if (!history_) return;
   const State<Dim>& state = flow.state();
   std::vector<double> line = {static_cast<double>(state.step), state.time, state.dt};
@@ -159,9 +160,15 @@ void ResultWriter<Dim>::append_history(const Flow<Dim>& flow, const Diagnostics&
 }
 
 template <int Dim>
+void ResultWriter<Dim>::append_crater(const Flow<Dim>& flow) {
+  if (crater_) crater_->append(flow);
+}
+
+template <int Dim>
 void ResultWriter<Dim>::sync() const {
   if (history_) history_->sync();
   if (bubbles_) bubbles_->sync();
+  if (crater_) crater_->sync();
 }
 
 template <int Dim>

@@ -7,6 +7,7 @@
 
 #include "app/bubble_writer.hpp"
 #include "app/case_config.hpp"
+#include "app/crater_writer.hpp"
 #include "core/snapshot.hpp"
 #include "core/text_output.hpp"
 #include "core/xdmf.hpp"
@@ -25,9 +26,12 @@ class ResultWriter {
 
   /// Field file of the current state; returns its path. \throws FileError
   std::filesystem::path write_fields(const Flow<Dim>& flow);
+  /// The crater of the current state, as it belongs to fields. \throws FileError
+  void append_crater(const Flow<Dim>& flow);
   /// After a step has failed: the state before it, and what it had come to, under names of their own. \throws FileError
   std::pair<std::filesystem::path, std::filesystem::path> write_failed_step(const Flow<Dim>& flow);
-  /// One line of `history.csv`, and those of `bubbles.csv` and `events.csv`. \throws FileError
+  /// One line of `history.csv`, those of `bubbles.csv` and `events.csv`, and the crater when it is due.
+  /// \throws FileError
   void append_history(const Flow<Dim>& flow, const Diagnostics& diagnostics, const StepReport& report);
   /// Brings the tables safely to the disk: before a checkpoint, which counts on them. \throws FileError
   void sync() const;
@@ -45,6 +49,7 @@ class ResultWriter {
   XdmfSeries series_;
   std::optional<CsvWriter> history_;
   std::optional<BubbleWriter<Dim>> bubbles_;  ///< where there can be bubbles
+  std::optional<CraterWriter<Dim>> crater_;
 };
 
 }  // namespace quicksand

@@ -35,6 +35,7 @@ struct Run {
 template <int Dim>
 void write_fields(const Flow<Dim>& flow, Run<Dim>& run) {
   run.progress.wrote(flow.state().time, flow.state().step, run.writer.write_fields(flow).string());
+  run.writer.append_crater(flow);
 }
 
 /// One step and what is written after it. \return whether fields were
@@ -145,9 +146,11 @@ bool march(Run<Dim>& run, const ResumePoint* resume) {
                          number_text(flow.state().time) + ": " + error.what() + "; the state before it is in " +
                          before.string() + ", what it came to in " + after.string());
   }
-  if (!fields_due) write_fields(flow, run);
   const bool over = is_over(flow, run);
+  // Fields of an interruption go when the run is resumed; tables may hold nothing that does not belong to the results.
   if (!over || run.config.output.checkpoint.every) write_checkpoint(flow, run, fields_due);
+  if (!fields_due && over) write_fields(flow, run);
+  if (!fields_due && !over) run.writer.write_fields(flow);
   return over;
 }
 

@@ -26,6 +26,12 @@ std::string header(const std::vector<std::string>& columns) {
   return line;
 }
 
+std::string line_of(std::span<const double> values) {
+  std::string line;
+  for (const double value : values) line += (line.empty() ? "" : ",") + number_text(value);
+  return line + '\n';
+}
+
 /// The lines of a table up to `last_step`, header included.
 std::string kept_lines(const std::filesystem::path& path, const std::string& expected_header, std::int64_t last_step) {
   std::ifstream in(path);
@@ -160,9 +166,17 @@ CsvWriter::CsvWriter(const std::filesystem::path& path, std::vector<std::string>
 }
 
 void CsvWriter::append(std::span<const double> values) {
-  std::vector<std::string> texts;
-  for (const double value : values) texts.push_back(number_text(value));
-  append_text(texts);
+  assert(values.size() == columns_.size());
+  write(line_of(values));
+}
+
+void CsvWriter::append_lines(std::span<const std::vector<double>> lines) {
+  std::string text;
+  for (const std::vector<double>& values : lines) {
+    assert(values.size() == columns_.size());
+    text += line_of(values);
+  }
+  write(text);
 }
 
 void CsvWriter::append_text(std::span<const std::string> values) {
@@ -172,7 +186,11 @@ void CsvWriter::append_text(std::span<const std::string> values) {
     if (!line.empty()) line += ',';
     line += value;
   }
-  out_ << line << '\n' << std::flush;
+  write(line + '\n');
+}
+
+void CsvWriter::write(const std::string& text) {
+  out_ << text << std::flush;
   if (!out_) throw FileError(path_.string() + ": cannot write");
 }
 

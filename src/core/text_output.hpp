@@ -73,12 +73,16 @@ class CsvWriter {
   const std::vector<std::string>& columns() const { return columns_; }
   /// Adds one line. \pre one value per column \throws FileError
   void append(std::span<const double> values);
+  /// Adds lines that belong together, in one go. \pre one value per column in each \throws FileError
+  void append_lines(std::span<const std::vector<double>> lines);
   /// Adds one line of texts that need no quotes. \pre one per column \throws FileError
   void append_text(std::span<const std::string> values);
   /// Brings all lines so far safely to the disk. \throws FileError
   void sync() const;
 
  private:
+  void write(const std::string& text);
+
   std::filesystem::path path_;
   std::vector<std::string> columns_;
   std::ofstream out_;

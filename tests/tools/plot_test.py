@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """tools/plot on small made-up results."""
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -11,33 +10,14 @@ import numpy as np
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 sys.path.insert(0, str(TOOLS))
-from plotting import solid, style  # noqa: E402
-from plotting.result import ResultError, Snapshot, read_history  # noqa: E402
-
-
-def write_snapshot(folder, step, faces, geometry="planar", species=("sand",)):
-    """A half-filled domain that moves sideways."""
-    shape = tuple(len(values) - 1 for values in reversed(list(faces.values())))
-    height = np.linspace(0, 1, shape[0]).reshape((-1,) + (1,) * (len(shape) - 1))
-    fraction = np.broadcast_to(np.clip(2 - 4 * height, 0, 1), shape)
-    velocity = np.zeros(shape + (len(shape),))
-    velocity[..., 0] = step * (fraction > 0)
-    with h5py.File(pathlib.Path(folder) / f"fields_{step:08d}.h5", "w") as file:
-        file.attrs.update(step=step, time=0.1 * step, dt=0.1, units="none", title="Test", geometry=geometry)
-        for name, values in faces.items():
-            file[f"grid/{name}"] = values
-        for name in species:
-            file[f"fields/phi_{name}"] = fraction / len(species)
-        file["fields/density"] = fraction
-        file["fields/velocity"] = velocity
-
-
-def write_history(folder, lines):
-    (pathlib.Path(folder) / "history.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+import tool  # noqa: E402
+from plotting import crater, flat, solid, style  # noqa: E402
+from plotting.result import ResultError, Snapshot, case_value, mirror_side, read_history  # noqa: E402
+from results import CASE, write_crater, write_history, write_snapshot  # noqa: E402
 
 
 def plot(*arguments):
-    return subprocess.run([TOOLS / "plot", *map(str, arguments)], capture_output=True, text=True, check=False)
+    return tool.run("plot", *arguments)
 
 
 class PlotTest(unittest.TestCase):
@@ -74,12 +54,42 @@ class PlotTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.pictures(), ["frame_00000003.png", "frames.png"])
 
+    def test_draws_a_crater_on_grids_that_change(self):
+        write_crater(self.folder)
+        write_snapshot(self.folder, 0, {"x": np.linspace(0, 0.2, 9), "z": np.linspace(0, 0.3, 9)}, species=("sand", "water"))
+        write_snapshot(self.folder, 8, {"x": np.geomspace(1, 2, 9) - 1, "z": np.linspace(0, 1, 17)}, species=("sand", "water"))
+        done = plot(self.folder, "--unit", "cm", "--times", "0,0.8", "--window=-0.3,0.3,0,0.9", "--no-contours",
+                    "--every", 2)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.pictures(), ["crater.png", "frame_00000000.png", "frames.png"])
+
+    def test_compares_craters_and_bubbles(self):
+        for name in ("a", "b"):
+            write_crater(self.folder / name)
+            write_snapshot(self.folder / name, 8, self.flat)
+            write_history(self.folder / name, ["step,time,bubble_volume", "8,0.8,0.1"])
+            with h5py.File(self.folder / name / "fields_00000008.h5", "r+") as file:
+                file["fields/gas_region"] = np.where(file["fields/density"][...] < 0.5, 2, 0)
+        both = (self.folder / "a", self.folder / "b", "--out", self.folder / "out")
+        for option, picture in (("--crater", "crater.png"), ("--bubbles", "bubbles.png")):
+            done = plot(option, *both, "--labels", "one,two")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(picture, done.stdout)
+            self.assertTrue((self.folder / "out" / picture).exists())
+
     def test_says_what_is_wrong(self):
-        done = plot(self.folder / "none")
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn("there is no folder", done.stderr)
-        done = plot(self.folder)
-        self.assertIn("neither field files nor a history", done.stderr)
+        write_snapshot(self.folder, 1, self.flat)
+        for arguments, words in (
+                ((self.folder / "none",), "there is no folder"),
+                ((TOOLS,), "neither field files nor a history"),
+                ((self.folder, "--window=2,3,0,1"), "beyond the grid"),
+                ((self.folder, "--window=1,0,0,1"), "X0 < X1"),
+                ((self.folder, "--crater"), "give output.crater"),
+                ((self.folder, "--bubbles"), "holds no bubble"),
+                ((self.folder, "--crater", "--labels", "a,b"), "names 2 results, but there are 1")):
+            done = plot(*arguments)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(words, done.stderr)
 
 
 class ReadingTest(unittest.TestCase):
@@ -92,6 +102,41 @@ class ReadingTest(unittest.TestCase):
             broken.write_text("no HDF5", encoding="utf-8")
             with self.assertRaises(ResultError):
                 Snapshot(broken)
+
+
+    def test_case_values(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "case.yaml").write_text(CASE, encoding="utf-8")
+            self.assertEqual(case_value(folder, "grid", "geometry"), "planar")
+            self.assertEqual(case_value(folder, "boundaries", "x_max"), "free_slip")
+            self.assertIsNone(case_value(folder, "grid", "x_max"))
+            self.assertIsNone(case_value(folder, "gravity"))
+            self.assertEqual(mirror_side(folder), "low")
+
+    def test_images_beyond_a_plane_of_symmetry(self):
+        with tempfile.TemporaryDirectory() as folder:
+            write_snapshot(folder, 1, {"x": np.array([1.0, 2.0, 4.0]), "z": np.linspace(0, 1, 4)})
+            half = Snapshot(pathlib.Path(folder) / "fields_00000001.h5")
+            whole = half.mirrored(at_high=False)
+            np.testing.assert_array_equal(whole.axes["x"], [-2, 0, 1, 2, 4])
+            np.testing.assert_array_equal(whole.velocity[:, 1], half.velocity[:, 0] * [-1, 1])
+            np.testing.assert_array_equal(half.mirrored(at_high=True).axes["x"], [1, 2, 4, 6, 7])
+            part = whole.cropped({"x": (-1, 1.5), "z": (0, 0.5)})
+            np.testing.assert_array_equal(part.axes["x"], [-2, 0, 1, 2])
+            self.assertEqual(part.velocity.shape, (2, 3, 2))
+
+            write_crater(folder)
+            x, surface, top = crater.CraterResult(pathlib.Path(folder), "", "cm").profile(1)
+            np.testing.assert_allclose(x, np.arange(-95, 100, 10))
+            np.testing.assert_allclose(top, top[::-1])
+            np.testing.assert_allclose(top.min(), 41)
+            np.testing.assert_allclose(surface, top - 1)
+
+
+class ArrowTest(unittest.TestCase):
+    def test_every_second_cell_of_equal_ones(self):
+        np.testing.assert_array_equal(flat.chosen_cells(np.linspace(0, 0.7, 8), 0, 0.2), [0, 2, 4, 6])
+        np.testing.assert_array_equal(flat.chosen_cells(np.array([0, 1, 2, 4, 8.0]), 0, 2), [0, 2, 3])
 
 
 class SurfaceTest(unittest.TestCase):

@@ -55,8 +55,8 @@ TEST(ConfigCase, ShownCaseReadsBackToTheSame) {
   const std::vector<std::vector<std::string>> variants = {
       {},
       {"time={end: 0.1, cfl: 0.3, max_step: 0.012345678901234567, min_step: 1e-300}", "gravity=[0, 0, -9.81]"},
-      {"title=\"quoted: \\\"text\\\", # 'no comment'\\n- line\"",
-       "output.fields={times: [0, 0.1, 3.3333333333333335]}"},
+      {"title=\"quoted: \\\"text\\\", # 'no comment'\\n- line\"", "output.fields={times: [0, 0.1, 3.3333333333333335]}",
+       "output.crater={species: sand, level: 0.25, every: 0.1}"},
       {"title='2024'", "output.directory='true'", "gravity=0"},
       {"initial.0.shape={wave: {bottom: 0, level: 0.4, amplitude: -0.1, wavenumber: 7.66}}"},
       {"initial.0.shape={polygon: {points: [[0, 0], [0.1, 0], [0.2, 0.7], [0, 0.9]]}}"},

@@ -1,9 +1,11 @@
 """Frames of planar and axisymmetric results in the style of the report's Figs. 5-11.
 
-Lines: total volume fraction 0.1, 0.3, 0.5, 0.7, 0.9. Arrows: velocity in the lower left cell of each 2 x 2 block where that
-fraction is at least 0.01. Below the frame: the largest speed there, with the arrow that stands for it, and in parentheses
+Lines: total volume fraction 0.1, 0.3, 0.5, 0.7, 0.9. Arrows: velocity in the lower left cell of each 2 x 2 block, of larger
+ones on fine grids, where that fraction is at least 0.01. Below the frame: the largest speed there, with the arrow that stands for it, and in parentheses
 the largest speed in the liquid, where the fraction is at least 0.9.
 """
+import dataclasses
+
 import numpy as np
 
 from . import style
@@ -12,6 +14,7 @@ LEVELS = [0.1, 0.3, 0.5, 0.7, 0.9]
 SPRAY = 0.01
 LIQUID = 0.9
 BLOCKS = 36  # blocks of arrows along the shorter side before blocks get larger than 2 x 2
+BLOCKS_ON_PAGE = 22  # the same for one frame of many
 
 
 def to_walls(coordinates, faces, values, axis):
@@ -49,29 +52,36 @@ def fill(axes, snapshot):
                 interpolation="bilinear", aspect="equal", zorder=0)
 
 
-def lines(axes, snapshot):
+def lines(axes, snapshot, levels):
     """Contours of the total fraction, and the middle line between species."""
     x, z, total = padded(snapshot, snapshot.total_fraction)
     if total.max() > LEVELS[0] and total.min() < LEVELS[-1]:
-        widths = [1.2 if level == 0.5 else 0.6 for level in LEVELS]
-        axes.contour(x, z, total, levels=LEVELS, colors=style.INK, linewidths=widths, zorder=2)
+        widths = [1.2 if level == 0.5 else 0.6 for level in levels]
+        axes.contour(x, z, total, levels=levels, colors=style.INK, linewidths=widths, zorder=2)
     for name in snapshot.species[:-1] if len(snapshot.species) > 1 else []:
         share = np.where(total > 0.5, padded(snapshot, snapshot.fraction(name))[2] / np.maximum(total, 0.5), np.nan)
         if np.nanmin(share, initial=1) < 0.5 < np.nanmax(share, initial=0):
             axes.contour(x, z, share, levels=[0.5], colors="#7a5a2c", linewidths=0.9, linestyles="--", zorder=2)
 
 
-def arrows(axes, snapshot, label_below):
+def chosen_cells(faces, low, spacing):
+    """The cells at points with that spacing, each once."""
+    points = np.arange(low + 1e-6 * spacing, faces[-1], spacing)
+    return np.unique(np.clip(np.searchsorted(faces, points, side="right") - 1, 0, len(faces) - 2))
+
+
+def arrows(axes, snapshot, label_below, blocks):
     """Velocity arrows, their scale arrow and both largest speeds."""
     x_faces, z_faces = snapshot.axes["x"], snapshot.axes["z"]
-    width, height = x_faces[-1] - x_faces[0], z_faces[-1] - z_faces[0]
+    (x_low, x_high), (z_low, z_high) = snapshot.extent("x"), snapshot.extent("z")
+    width, height = x_high - x_low, z_high - z_low
     speed, liquid_speed = snapshot.max_speed(SPRAY), snapshot.max_speed(LIQUID)
-    block = 2 * max(1, round(min(len(x_faces), len(z_faces)) / (2 * BLOCKS)))
-    block_size = block * min(width / (len(x_faces) - 1), height / (len(z_faces) - 1))
+    cell = min(np.diff(x_faces).min(), np.diff(z_faces).min())
+    block_size = 2 * cell * max(1, round(min(width, height) / (2 * cell * blocks)))
     length = min(0.2 * min(width, height), 2.2 * block_size)
     label = f"{speed:.3g} ({liquid_speed:.3g})" + (" m/s" if snapshot.si_units else "")
     if speed > 0:
-        cells = (slice(None, None, block), slice(None, None, block))
+        cells = np.ix_(chosen_cells(z_faces, z_faces[0], block_size), chosen_cells(x_faces, x_faces[0], block_size))
         x, z = np.meshgrid(snapshot.centres("x"), snapshot.centres("z"))
         drawn = snapshot.total_fraction[cells] >= SPRAY
         u = snapshot.velocity[cells][drawn]
@@ -81,20 +91,27 @@ def arrows(axes, snapshot, label_below):
                     minlength=0.5)
         axes.quiver(x[cells][drawn], z[cells][drawn], u[:, 0], u[:, 1], zorder=3, **form)
         if label_below:
-            axes.quiver([x_faces[0] + 0.04 * width], [z_faces[0] - label_below], [speed], [0], clip_on=False, zorder=4,
-                        **form)
+            axes.quiver([x_low + 0.04 * width], [z_low - label_below], [speed], [0], clip_on=False, zorder=4, **form)
     if label_below:
-        axes.text(x_faces[0] + 0.07 * width + length, z_faces[0] - label_below, label, va="center", ha="left",
-                  fontsize="small")
+        axes.text(x_low + 0.07 * width + length, z_low - label_below, label, va="center", ha="left", fontsize="small")
 
 
-def frame(axes, snapshot, label_below):
+@dataclasses.dataclass
+class Look:
+    """What a frame shows besides the species."""
+    contours: bool = True
+    arrows: bool = True
+    blocks: int = BLOCKS
+
+
+def frame(axes, snapshot, label_below, look=Look()):
     """Draws one frame. `label_below`: distance of the speeds from the lower side, in the unit of the axes; 0 for none."""
     fill(axes, snapshot)
-    lines(axes, snapshot)
+    lines(axes, snapshot, LEVELS if look.contours else [0.5])
     axes.set_xlim(snapshot.extent("x"))
     axes.set_ylim(snapshot.extent("z"))
-    arrows(axes, snapshot, label_below)
+    if look.arrows:
+        arrows(axes, snapshot, label_below, look.blocks)
 
 
 def size_of(snapshot):
@@ -102,8 +119,8 @@ def size_of(snapshot):
 
 
 def axis_names(snapshot):
-    unit = " (m)" if snapshot.si_units else ""
-    return ("r" if snapshot.axisymmetric else "x") + unit, "z" + unit
+    across = "r" if snapshot.axisymmetric else "x"
+    return style.axis_label(across, snapshot.length_unit), style.axis_label("z", snapshot.length_unit)
 
 
 def legend(figure, snapshot):
@@ -116,7 +133,7 @@ def legend(figure, snapshot):
     figure.legend(handles=patches, loc="upper right", ncol=len(patches), fontsize="small", borderaxespad=0.4)
 
 
-def single(pyplot, snapshot, path):
+def single(pyplot, snapshot, path, look=Look()):
     """One frame as a picture of its own."""
     width, height = size_of(snapshot)
     scale = min(7.2 / width, 6.2 / height)
@@ -125,7 +142,7 @@ def single(pyplot, snapshot, path):
     axes_width = scale * width / figure_size[0]
     axes = figure.add_axes([0.5 - axes_width / 2 + 0.12 / figure_size[0], 0.8 / figure_size[1], axes_width,
                             scale * height / figure_size[1]])
-    frame(axes, snapshot, label_below=0.55 / scale)
+    frame(axes, snapshot, label_below=0.55 / scale, look=look)
     names = axis_names(snapshot)
     axes.set_xlabel(names[0], labelpad=1)
     axes.set_ylabel(names[1])
@@ -135,7 +152,7 @@ def single(pyplot, snapshot, path):
     pyplot.close(figure)
 
 
-def overview(pyplot, snapshots, path):
+def overview(pyplot, snapshots, path, look=Look()):
     """A page of frames."""
     width, height = size_of(snapshots[-1])
     columns = style.page_columns(len(snapshots), (height / width) + 0.15)
@@ -153,15 +170,20 @@ def overview(pyplot, snapshots, path):
                                 scale * height / figure_size[1]])
         own_width, own_height = size_of(snapshot)
         own_scale = min(panel / own_width, scale * height / own_height)
-        frame(axes, snapshot, label_below=0.17 / own_scale)
+        frame(axes, snapshot, label_below=0.17 / own_scale,
+              look=dataclasses.replace(look, blocks=BLOCKS_ON_PAGE))
         axes.set_title(style.time_text(snapshot), pad=3)
         axes.set_xticks([])
         if column == 0:
             axes.tick_params(labelsize="x-small")
         else:
             axes.set_yticks([])
-    figure.text(0.42 / figure_size[0], 1 - 0.12 / figure_size[1], snapshots[-1].title, fontsize=11, va="top",
-                fontweight="bold")
+    title = figure.text(0.42 / figure_size[0], 1 - 0.12 / figure_size[1], snapshots[-1].title, fontsize=11, va="top",
+                        fontweight="bold")
+    if snapshots[-1].length_unit:
+        title_end = title.get_window_extent().x1 / figure.bbox.width
+        figure.text(title_end + 0.12 / figure_size[0], 1 - 0.14 / figure_size[1],
+                    f"lengths in {snapshots[-1].length_unit}", fontsize="small", va="top")
     legend(figure, snapshots[-1])
     figure.savefig(path)
     pyplot.close(figure)

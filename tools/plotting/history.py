@@ -3,6 +3,8 @@ import numpy as np
 
 from . import style
 
+GRID = "#d8dce0"
+
 
 def panels(history):
     """Title, curves {label: values} and whether logarithmic, for each panel that the columns allow."""
@@ -52,7 +54,7 @@ def draw(pyplot, history, title, si_units, path):
         for label, values in curves.items():
             axes.plot(history["time"], values, label=label)
         axes.set_title(name)
-        axes.grid(color="#d8dce0", linewidth=0.5)
+        axes.grid(color=GRID, linewidth=0.5)
         axes.margins(x=0)
         if logarithmic:
             axes.set_yscale("log")

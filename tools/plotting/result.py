@@ -1,4 +1,5 @@
 """Reading a result folder."""
+import copy
 import csv
 import pathlib
 import re
@@ -27,6 +28,8 @@ class Snapshot:
         self.step = int(self.attributes["step"])
         self.time = float(self.attributes["time"])
         self.end_time = self.time if end_time is None else end_time  # of the run, for the choice of units
+        self.length_unit = "m" if self.si_units else ""
+        self.window = None  # what is drawn, {axis: (low, high)}; all where None
 
     @property
     def dimension(self):
@@ -66,6 +69,9 @@ class Snapshot:
         return 0.5 * (faces[1:] + faces[:-1])
 
     def extent(self, axis):
+        """Ends of what is drawn along an axis."""
+        if self.window is not None:
+            return self.window[axis]
         return self.axes[axis][0], self.axes[axis][-1]
 
     def max_speed(self, least_fraction):
@@ -73,17 +79,53 @@ class Snapshot:
         speed = np.linalg.norm(self.velocity, axis=-1)[self.total_fraction >= least_fraction]
         return float(speed.max()) if speed.size else 0.0
 
+    def mirrored(self, at_high):
+        """A 2-D snapshot with its image beyond the low or high end of x."""
+        whole = copy.copy(self)
+        x = self.axes["x"]
+        image = 2 * x[-1 if at_high else 0] - x[::-1]
+        parts = (x, image[1:]) if at_high else (image[:-1], x)
+        whole.axes = {**self.axes, "x": np.concatenate(parts)}
+        whole.fields = {}
+        for name, values in self.fields.items():
+            flipped = values[:, ::-1]
+            if name == "velocity":
+                flipped = flipped * [-1, 1]
+            whole.fields[name] = np.concatenate((values, flipped) if at_high else (flipped, values), axis=1)
+        return whole
+
+    def scaled(self, factor, unit):
+        """The snapshot with lengths in another unit: `factor` of them make one of the case."""
+        copied = copy.copy(self)
+        copied.axes = {name: values * factor for name, values in self.axes.items()}
+        copied.length_unit = unit
+        return copied
+
+    def cropped(self, window):
+        """A 2-D snapshot of the cells in a window {axis: (low, high)}, which becomes what is drawn."""
+        part = copy.copy(self)
+        part.window, part.axes, part.fields = window, {}, {}
+        cuts = []
+        for axis in ("z", "x"):
+            faces = self.axes[axis]
+            inside = np.flatnonzero((faces[1:] > window[axis][0]) & (faces[:-1] < window[axis][1]))
+            if len(inside) == 0:
+                raise ResultError(f"the window {window[axis][0]:g} to {window[axis][1]:g} along {axis} is beyond the "
+                                  f"grid, {faces[0]:g} to {faces[-1]:g}")
+            cuts.append(slice(inside[0], inside[-1] + 1))
+            part.axes[axis] = faces[inside[0]:inside[-1] + 2]
+        part.fields = {name: values[tuple(cuts)] for name, values in self.fields.items()}
+        return part
+
     def slice(self, axis, position):
         """The plane of cells at a position along x or y of a 3-D snapshot, as a 2-D snapshot with axes x (across) and z."""
         number = "zyx".index(axis)
         cell = int(np.clip(np.searchsorted(self.axes[axis], position, side="right") - 1, 0, len(self.axes[axis]) - 2))
         across = "y" if axis == "x" else "x"
-        plane = Snapshot.__new__(Snapshot)
+        plane = copy.copy(self)
         plane.axes = {"x": self.axes[across], "z": self.axes["z"]}
         plane.fields = {name: np.take(values, cell, axis=number) for name, values in self.fields.items()}
         plane.fields["velocity"] = plane.fields["velocity"][..., ["xyz".index(across), 2]]
-        plane.attributes = self.attributes
-        plane.step, plane.time, plane.end_time = self.step, self.time, self.end_time
         return plane
 
     def _text(self, name):
@@ -103,7 +145,12 @@ def field_files(folder):
 
 def read_history(folder):
     """Columns of history.csv by name; empty where there is no complete line."""
-    path = pathlib.Path(folder) / "history.csv"
+    return read_table(folder, "history.csv")
+
+
+def read_table(folder, name):
+    """Columns of a table of numbers by name; empty where there is no complete line."""
+    path = pathlib.Path(folder) / name
     if not path.exists():
         return {}
     with open(path, newline="", encoding="utf-8") as file:
@@ -119,3 +166,30 @@ def read_history(folder):
     except ValueError as error:
         raise ResultError(f"{path}: {error}") from error
     return {name: table[:, n] for n, name in enumerate(names)}
+
+
+def case_value(folder, *keys):
+    """Text of a value in the case.yaml that a run has written, such as ("boundaries", "x_min"); None where there is none.
+    For values on a line of their own."""
+    path = pathlib.Path(folder) / "case.yaml"
+    if not path.exists():
+        return None
+    level = 0
+    for line in path.read_text(encoding="utf-8").splitlines():
+        indentation = (len(line) - len(line.lstrip())) // 2
+        key, colon, value = line.strip().partition(":")
+        if indentation < level:
+            return None
+        if not colon or indentation > level or key != keys[level]:
+            continue
+        if level + 1 == len(keys):
+            return value.strip().strip("\"'")
+        level += 1
+    return None
+
+
+def mirror_side(folder):
+    """At which end of x the domain goes on as its image: "low", "high", or None."""
+    if case_value(folder, "boundaries", "x_min") in ("axis", "symmetry"):
+        return "low"
+    return "high" if case_value(folder, "boundaries", "x_max") == "symmetry" else None

@@ -39,13 +39,29 @@ def species_colours(names):
     return colours
 
 
+LENGTHS = {"m": 1, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
+
+
 def time_text(snapshot):
-    """Time with its unit, in ms where the whole run takes less than a tenth of a second."""
-    if not snapshot.si_units:
-        return f"t = {snapshot.time:.4g}"
-    if snapshot.end_time < 0.1:
-        return f"t = {1e3 * snapshot.time:.4g} ms"
-    return f"t = {snapshot.time:.4g} s"
+    """Time with its unit."""
+    return "t = " + time_label(snapshot.time, snapshot.end_time, snapshot.si_units)
+
+
+def time_label(time, end_time, si_units):
+    """A time with its unit, in ms where the whole run takes no more than two seconds."""
+    scale, unit = time_scale(end_time, si_units)
+    return f"{time * scale:.4g} {unit}".rstrip()
+
+
+def time_scale(end_time, si_units):
+    """Factor and unit for times of a run."""
+    if not si_units:
+        return 1, ""
+    return (1e3, "ms") if end_time <= 2 else (1, "s")
+
+
+def axis_label(name, unit):
+    return f"{name} ({unit})" if unit else name
 
 
 def chosen(items, most):
@@ -58,5 +74,10 @@ def chosen(items, most):
 def page_columns(count, aspect):
     """Columns for panels of a height-to-width ratio such that the page gets about 4:3 with few empty places."""
     ideal = round(np.sqrt(count * aspect * 4 / 3))
-    candidates = [n for n in (ideal, ideal - 1, ideal + 1) if 1 <= n <= count] or [min(count, max(1, ideal))]
+    candidates = [n for n in (ideal, ideal + 1, ideal - 1) if 1 <= n <= count] or [min(count, max(1, ideal))]
     return min(candidates, key=lambda n: -(-count // n) * n - count)
+
+
+def times_colours(count):
+    """Colours from early to late."""
+    return [matplotlib.colormaps["viridis_r"](share) for share in np.linspace(0.12, 1, max(count, 2))[-count:]]
