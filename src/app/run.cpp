@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <new>
 #include <optional>
+#include <utility>
 
 #include "app/build_flow.hpp"
 #include "app/checkpoint_schedule.hpp"
@@ -183,11 +184,12 @@ int run_in(const CaseConfig& config, const RunOptions& options) {
   }
   std::vector<double> stage_ends;
   for (const StageConfig& stage : config.stages) stage_ends.push_back(stage.until);
-  Run<Dim> run{config,
-               {GridSequence<Dim>(config), SteadyState(config.time.until_steady), false, RunStatistics(species)},
-               TimeControl(config.time, config.output.fields, stage_ends),
-               ResultWriter<Dim>(config, folder, resume ? std::optional(resume->head.step) : std::nullopt),
-               progress};
+  // Made one by one: g++ 12 destroys members of an aggregate twice when a later one throws.
+  RunMemory<Dim> memory{GridSequence<Dim>(config), SteadyState(config.time.until_steady), false,
+                        RunStatistics(species)};
+  ResultWriter<Dim> writer(config, folder, resume ? std::optional(resume->head.step) : std::nullopt);
+  TimeControl control(config.time, config.output.fields, stage_ends);
+  Run<Dim> run{config, std::move(memory), std::move(control), std::move(writer), progress};
   bool finished = false;
   try {
     finished = march(run, resume ? &*resume : nullptr);
