@@ -31,9 +31,9 @@ std::string event_text(const GasEvent& event, double time, double circle) {
 }
 
 template <int Dim>
-BubbleWriter<Dim>::BubbleWriter(const std::filesystem::path& folder)
-    : bubbles_(folder / "bubbles.csv", bubble_columns(Dim)),
-      events_(folder / "events.csv", {"step", "time", "event", "bubble", "other", "volume", "pressure"}) {}
+BubbleWriter<Dim>::BubbleWriter(const std::filesystem::path& folder, std::optional<std::int64_t> last_step)
+    : bubbles_(folder / "bubbles.csv", bubble_columns(Dim), last_step),
+      events_(folder / "events.csv", {"step", "time", "event", "bubble", "other", "volume", "pressure"}, last_step) {}
 
 template <int Dim>
 void BubbleWriter<Dim>::append(const State<Dim>& state, const std::vector<BubbleMeasures<Dim>>& bubbles,
@@ -50,6 +50,12 @@ void BubbleWriter<Dim>::append(const State<Dim>& state, const std::vector<Bubble
         std::to_string(state.step), number_text(state.time), std::string(name(e.kind)), std::to_string(e.bubble),
         std::to_string(e.other), number_text(circle * e.volume), number_text(e.pressure)});
   }
+}
+
+template <int Dim>
+void BubbleWriter<Dim>::sync() const {
+  bubbles_.sync();
+  events_.sync();
 }
 
 template class BubbleWriter<2>;

@@ -16,12 +16,14 @@ std::string event_text(const GasEvent& event, double time, double circle);
 template <int Dim>
 class BubbleWriter {
  public:
-  /// \throws FileError
-  explicit BubbleWriter(const std::filesystem::path& folder);
+  /// \param last_step  as of CsvWriter \throws FileError
+  explicit BubbleWriter(const std::filesystem::path& folder, std::optional<std::int64_t> last_step = {});
 
   /// \throws FileError
   void append(const State<Dim>& state, const std::vector<BubbleMeasures<Dim>>& bubbles,
               const std::vector<GasEvent>& events, double circle);
+  /// Brings all lines so far safely to the disk. \throws FileError
+  void sync() const;
 
  private:
   CsvWriter bubbles_;

@@ -23,6 +23,9 @@ FlowParameters<Dim> parameters_of(const CaseConfig& config) {
   p.diffusion.iteration = config.solver.viscous_iteration;
   p.diffusion.tolerance = config.solver.viscous_tolerance;
   p.diffusion.max_iterations = config.solver.viscous_max_iterations;
+  p.guard = config.guard;
+  // Solves that are less accurate keep the energy less well.
+  p.guard.energy_rise = std::max(config.guard.energy_rise, config.solver.tolerance);
   return p;
 }
 
@@ -74,8 +77,13 @@ void cut_bubbles(const CaseConfig& config, Flow<Dim>& flow) {
 }  // namespace
 
 template <int Dim>
+Flow<Dim> empty_flow(const CaseConfig& config, Domain<Dim> domain) {
+  return {std::move(domain), parameters_of<Dim>(config)};
+}
+
+template <int Dim>
 Flow<Dim> build_flow(const CaseConfig& config, Domain<Dim> domain) {
-  Flow<Dim> flow(std::move(domain), parameters_of<Dim>(config));
+  Flow<Dim> flow = empty_flow<Dim>(config, std::move(domain));
   fill_shapes(config, flow);
   cut_bubbles(config, flow);
   flow.initialize();
@@ -87,6 +95,8 @@ Flow<Dim> build_flow(const CaseConfig& config) {
   return build_flow<Dim>(config, GridSequence<Dim>(config).first());
 }
 
+template Flow<2> empty_flow<2>(const CaseConfig&, Domain<2>);
+template Flow<3> empty_flow<3>(const CaseConfig&, Domain<3>);
 template Flow<2> build_flow<2>(const CaseConfig&, Domain<2>);
 template Flow<3> build_flow<3>(const CaseConfig&, Domain<3>);
 template Flow<2> build_flow<2>(const CaseConfig&);

@@ -16,4 +16,8 @@ Flow<Dim> build_flow(const CaseConfig& config, Domain<Dim> domain);
 template <int Dim>
 Flow<Dim> build_flow(const CaseConfig& config);
 
+/// A flow of a case on a grid with its sides, without anything in it. \pre config.grid.dimension == Dim
+template <int Dim>
+Flow<Dim> empty_flow(const CaseConfig& config, Domain<Dim> domain);
+
 }  // namespace quicksand

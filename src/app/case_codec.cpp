@@ -4,7 +4,6 @@
 #include <charconv>
 #include <iterator>
 
-#include "app/crater_codec.hpp"
 #include "core/config_variant.hpp"
 
 namespace quicksand {
@@ -244,20 +243,6 @@ Codec<SolverSettings> solver_codec() {
   });
 }
 
-Codec<OutputSettings> output_codec() {
-  const auto schedule = object<OutputSchedule>({
-      maybe("every", &OutputSchedule::every, quantity(dim::time, positive), "interval (or give times)"),
-      maybe("times", &OutputSchedule::times, list_of(quantity(dim::time, not_negative), 1),
-            "increasing list of times (or give every)"),
-  });
-  return object<OutputSettings>({
-      defaulted("directory", &OutputSettings::directory, text(), "folder of the results"),
-      defaulted("fields", &OutputSettings::fields, schedule, "when fields are written; neither key: start and end"),
-      defaulted("history", &OutputSettings::history, flag(), "whether history.csv is written"),
-      maybe("crater", &OutputSettings::crater, crater_codec(), "the crater in a bed, measured"),
-  });
-}
-
 Codec<CaseConfig> make_case_codec() {
   return object<CaseConfig>({
       required("title", &CaseConfig::title, text(), "what the case is"),
@@ -280,6 +265,7 @@ Codec<CaseConfig> make_case_codec() {
                 "grids of the first parts of the run, in order of time; the flow is moved from one to the next"),
       maybe("regrid", &CaseConfig::regrid, regrid_codec(), "grids that follow the bubbles of the start as they grow"),
       defaulted("solver", &CaseConfig::solver, solver_codec(), "settings of the numerical method"),
+      defaulted("guard", &CaseConfig::guard, guard_codec(), "when a step counts as failed, and what becomes of it"),
       defaulted("output", &CaseConfig::output, output_codec(), "what is written, where and when"),
   });
 }

@@ -9,6 +9,12 @@ namespace quicksand {
 /// How a whole case is read, written and described.
 const Codec<CaseConfig>& case_codec();
 
+/// How the section on outputs is read, written and described.
+Codec<OutputSettings> output_codec();
+
+/// How the section on the guard is read, written and described.
+Codec<GuardSettings> guard_codec();
+
 /// How a shape is read, written and described.
 Codec<Shape> shape_codec();
 

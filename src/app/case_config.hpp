@@ -113,6 +113,12 @@ struct OutputSchedule {
   std::vector<double> times;
 };
 
+/// When checkpoints are written: whichever comes first, after a step. They do not change the steps.
+struct CheckpointSettings {
+  std::optional<double> every;  ///< in the flow's time; with it checkpoints outlast the run
+  double wall_interval = 900;   ///< seconds on the wall
+};
+
 /// What is measured of the crater in a bed.
 struct CraterSettings {
   std::vector<std::string> species;  ///< what the bed is made of
@@ -123,6 +129,7 @@ struct CraterSettings {
 struct OutputSettings {
   std::string directory = "results";
   OutputSchedule fields;
+  CheckpointSettings checkpoint;
   bool history = true;
   std::optional<CraterSettings> crater;
 };
@@ -143,6 +150,7 @@ struct CaseConfig {
   std::vector<StageConfig> stages;  ///< in order of time; what follows them runs on `grid`
   std::optional<RegridConfig> regrid;
   SolverSettings solver;
+  GuardSettings guard;
   OutputSettings output;
 };
 

@@ -37,7 +37,7 @@ constexpr CommandName commands[] = {
     {"check", Command::check, "a case file"},
     {"show", Command::show, "a case file"},
     {"schema", Command::schema, nullptr},
-    {"info", Command::info, "a result folder or field file"},
+    {"info", Command::info, "a result folder, field file or checkpoint"},
     {"help", Command::help, nullptr},
     {"--help", Command::help, nullptr},
     {"-h", Command::help, nullptr},
@@ -67,7 +67,7 @@ int parse_threads(const std::string& text) {
 /// The options that a command takes.
 std::vector<std::string> options_of(Command command) {
   switch (command) {
-    case Command::run: return {"--set", "--output", "--threads", "--overwrite", "--quiet"};
+    case Command::run: return {"--set", "--output", "--threads", "--resume", "--overwrite", "--quiet"};
     case Command::check:
     case Command::show: return {"--set"};
     default: return {};
@@ -113,7 +113,7 @@ void read_option(const std::string& argument, ArgumentReader& reader, const std:
   } else if (has_value) {
     throw InputError(option + " takes no value");
   } else {
-    (option == "--overwrite" ? line.overwrite : line.run.quiet) = true;
+    (option == "--overwrite" ? line.overwrite : option == "--resume" ? line.run.resume : line.run.quiet) = true;
   }
 }
 
@@ -135,11 +135,12 @@ std::string version_text() {
 int run(const CommandLine& line, std::ostream& err) {
   CaseConfig config = read_case(line.path, line.settings);
   if (line.output) config.output.directory = *line.output;
-  protect_case_file(line.path, config.output.directory);
+  // A run that goes on may read the case that it left in its folder: it writes the same again.
+  if (!line.run.resume) protect_case_file(line.path, config.output.directory);
   if (!line.run.quiet) {
     for (const std::string& warning : case_warnings(config)) err << "warning: " << warning << "\n";
   }
-  prepare_output_folder(config.output.directory, line.overwrite);
+  if (!line.run.resume) prepare_output_folder(config.output.directory, line.overwrite);
   return run_case(config, line.run);
 }
 
@@ -170,6 +171,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
       line.path = argument;
     }
   }
+  if (line.overwrite && line.run.resume) throw InputError("--resume and --overwrite exclude each other");
   if (command.operand != nullptr && line.path.empty()) {
     throw InputError(std::string("'") + command.name + "' needs " + command.operand + see_help);
   }
@@ -184,7 +186,7 @@ std::string usage() {
          "  quicksand check CASE.yaml [--set ..]  read and validate a case, print what would run\n"
          "  quicksand show CASE.yaml [--set ..]   print the case with every default filled in\n"
          "  quicksand schema                      print the JSON Schema of case files\n"
-         "  quicksand info PATH                   print what a result folder or a field file holds\n"
+         "  quicksand info PATH                   print what a result folder, field file or checkpoint holds\n"
          "  quicksand --version                   print the versions of the program and its libraries\n"
          "  quicksand --help                      print this text\n"
          "\n"
@@ -193,11 +195,12 @@ std::string usage() {
          "                        (--set time.end=1 --set species.0.density=2 --set 'gravity=[0, 0, -9.81]')\n"
          "  --output DIR          write results to DIR instead of the case's output.directory\n"
          "  --overwrite           replace the results in an output folder that is not empty\n"
+         "  --resume              go on from the last checkpoint in the output folder, to the same results\n"
          "  --threads N           number of threads\n"
          "  --quiet               no warnings, no progress\n"
          "\n"
          "exit codes: 0 finished, 2 bad input, 3 numerical failure, 4 input/output failure,\n"
-         "            128 + signal where SIGINT or SIGTERM ended the run after a step\n";
+         "            128 + signal where SIGINT or SIGTERM ended the run after a step, with a checkpoint written\n";
 }
 
 int execute(const CommandLine& line, std::ostream& out, std::ostream& err) {

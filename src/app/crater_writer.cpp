@@ -30,11 +30,6 @@ std::vector<std::string> profile_columns(int dimension) {
   return {"step", "time", "x", "surface", "top"};
 }
 
-CsvWriter open_table(const std::filesystem::path& path, std::vector<std::string> columns,
-                     std::optional<std::int64_t> last_step) {
-  return last_step ? CsvWriter(path, std::move(columns), *last_step) : CsvWriter(path, std::move(columns));
-}
-
 /// What the last line of crater.csv begins with.
 struct LastLine {
   long step = -1;
@@ -78,8 +73,8 @@ template <int Dim>
 CraterWriter<Dim>::CraterWriter(const CaseConfig& config, const std::filesystem::path& folder,
                                 std::optional<std::int64_t> last_step)
     : settings_(*config.output.crater),
-      crater_(open_table(folder / "crater.csv", crater_columns(Dim), last_step)),
-      profiles_(open_table(folder / "crater_profiles.csv", profile_columns(Dim), last_step)),
+      crater_(folder / "crater.csv", crater_columns(Dim), last_step),
+      profiles_(folder / "crater_profiles.csv", profile_columns(Dim), last_step),
       level_(settings_.level) {
   for (const std::string& name : settings_.species) species_.push_back(species_number(config, name));
   if (!last_step) return;
@@ -124,6 +119,12 @@ void CraterWriter<Dim>::append_when_due(const Flow<Dim>& flow) {
   if (!settings_.every) return;
   const auto intervals = [&](double time) { return std::floor(time / *settings_.every + slack); };
   if (intervals(flow.state().time) > intervals(last_time_)) append(flow);
+}
+
+template <int Dim>
+void CraterWriter<Dim>::sync() const {
+  crater_.sync();
+  profiles_.sync();
 }
 
 template class CraterWriter<2>;

@@ -27,6 +27,8 @@ class CraterWriter {
   void append(const Flow<Dim>& flow);
   /// The same, at the first step that reaches another multiple of the case's interval. \throws FileError
   void append_when_due(const Flow<Dim>& flow);
+  /// Brings all lines so far safely to the disk. \throws FileError
+  void sync() const;
 
  private:
   CraterSettings settings_;

@@ -180,6 +180,18 @@ std::optional<Domain<Dim>> GridSequence<Dim>::next(const Flow<Dim>& flow) {
   return make(bubbles);
 }
 
+template <int Dim>
+void GridSequence<Dim>::exchange(Archive& archive) {
+  carry(archive, "grids/stage", stage_);
+  carry(archive, "grids/number", number_);
+  carry(archive, "grids/following", following_);
+  carry(archive, "grids/block_radius", block_radius_);
+  for (int d = 0; d < Dim; ++d) {
+    carry(archive, "grids/block/" + std::to_string(d) + "/low", block_.low[d]);
+    carry(archive, "grids/block/" + std::to_string(d) + "/high", block_.high[d]);
+  }
+}
+
 template class GridSequence<2>;
 template class GridSequence<3>;
 

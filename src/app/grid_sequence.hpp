@@ -28,6 +28,8 @@ class GridSequence {
   std::optional<Domain<Dim>> next(const Flow<Dim>& flow);
   /// Which grid the run is on, from 1.
   int number() const { return number_; }
+  /// Hands over where in the sequence the run is.
+  void exchange(Archive& archive);
 
  private:
   /// The present stage's grid as the case gives it.

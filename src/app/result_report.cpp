@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "app/case_report.hpp"
+#include "app/checkpoints.hpp"
 #include "core/config_node.hpp"
 #include "core/config_reader.hpp"
 #include "core/errors.hpp"
@@ -24,9 +25,7 @@ std::string read_text(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// The title in a result folder's case file.
-std::string title_of(const fs::path& case_file) {
-  const ConfigDocument document = read_yaml_file(case_file.string());
+std::string title_of(const ConfigDocument& document) {
   const ConfigNode* title = document.root.find("title");
   return title != nullptr ? title->text : "";
 }
@@ -42,8 +41,9 @@ std::string folder_report(const fs::path& folder) {
     if (entry.path().filename().string().starts_with("fields_")) ++field_files;
   }
   std::ostringstream out;
-  if (fs::exists(case_file)) out << "title        " << title_of(case_file) << "\n";
+  if (fs::exists(case_file)) out << "title        " << title_of(read_yaml_file(case_file.string())) << "\n";
   out << "field files  " << field_files << "\n";
+  for (const fs::path& file : checkpoints_in(folder)) out << "checkpoint   " << file.filename().string() << "\n";
   if (!fs::exists(summary)) {
     out << "no summary.json: the run has not finished\n";
   } else {
@@ -75,13 +75,24 @@ std::string field_file_report(const fs::path& file) {
   return out.str();
 }
 
+std::string checkpoint_report(const fs::path& file) {
+  const CheckpointHead head = open_checkpoint(file).head;
+  std::ostringstream out;
+  out << "checkpoint, in order\n"
+      << "title     " << title_of(parse_yaml(head.case_text, file.string())) << "\n"
+      << "step      " << head.step << "\n"
+      << "time      " << shortest(head.time) << "\n";
+  return out.str();
+}
+
 }  // namespace
 
 std::string result_report(const std::string& path) {
   std::error_code code;
   if (!fs::exists(path, code)) throw FileError(path + ": no such file or folder");
   try {
-    return fs::is_directory(path) ? folder_report(path) : field_file_report(path);
+    if (fs::is_directory(path)) return folder_report(path);
+    return is_checkpoint(path) ? checkpoint_report(path) : field_file_report(path);
   } catch (const fs::filesystem_error& error) {
     throw FileError(path + ": " + error.code().message());
   }

@@ -56,19 +56,20 @@ CellField cell_pressure(const Grid<Dim>& grid, const NodeField& pressure) {
 }  // namespace
 
 template <int Dim>
-ResultWriter<Dim>::ResultWriter(const CaseConfig& config, std::filesystem::path folder)
+ResultWriter<Dim>::ResultWriter(const CaseConfig& config, std::filesystem::path folder,
+                                std::optional<std::int64_t> last_step)
     : config_(config), folder_(std::move(folder)), series_(folder_) {
   write_text_file(folder_ / "case.yaml", to_yaml(config));
-  if (config.output.history) history_.emplace(folder_ / "history.csv", history_columns(config));
+  if (last_step) series_.write();
+  if (config.output.history) history_.emplace(folder_ / "history.csv", history_columns(config), last_step);
   const bool bubbles = !config.bubbles.empty() || !config.charges.empty() || config.trapped_gas.adiabatic;
-  if (config.output.history && bubbles) bubbles_.emplace(folder_);
-  if (config.output.crater) crater_.emplace(config, folder_);
+  if (config.output.history && bubbles) bubbles_.emplace(folder_, last_step);
+  if (config.output.crater) crater_.emplace(config, folder_, last_step);
 }
 
 template <int Dim>
-FieldSnapshot ResultWriter<Dim>::snapshot(const Flow<Dim>& flow) const {
+FieldSnapshot ResultWriter<Dim>::snapshot(const Flow<Dim>& flow, const State<Dim>& state) const {
   const Grid<Dim>& grid = flow.domain().grid;
-  const State<Dim>& state = flow.state();
   FieldSnapshot s;
   s.title = config_.title;
   s.units = config_.units == UnitSystem::si ? "SI" : "none";
@@ -81,9 +82,21 @@ FieldSnapshot ResultWriter<Dim>::snapshot(const Flow<Dim>& flow) const {
     s.fields.push_back({name, 1, owned_values(grid, field)});
   };
   for (std::size_t i = 0; i < state.phi.size(); ++i) add("phi_" + config_.species[i].name, state.phi[i]);
-  add("density", flow.density());
+  CellField density(grid.layout());
+  mix_density(grid, config_.species, state.phi, density);
+  add("density", density);
   s.fields.push_back({"velocity", Dim, owned_values(grid, state.u)});
   add("pressure", cell_pressure(grid, state.pressure));
+  return s;
+}
+
+template <int Dim>
+FieldSnapshot ResultWriter<Dim>::snapshot(const Flow<Dim>& flow) const {
+  const Grid<Dim>& grid = flow.domain().grid;
+  FieldSnapshot s = snapshot(flow, flow.state());
+  const auto add = [&](const std::string& name, const CellField& field) {
+    s.fields.push_back({name, 1, owned_values(grid, field)});
+  };
   add("gas_region", gas_region_field(flow));
   const StressFields stress = evaluate_stress(flow);
   add("viscosity", stress.viscosity);
@@ -97,15 +110,16 @@ std::filesystem::path ResultWriter<Dim>::write_fields(const Flow<Dim>& flow) {
   std::filesystem::path file = folder_ / fields_file_name(flow.state().step);
   quicksand::write_fields(file, snapshot(flow));
   series_.add(file);
-  if (crater_) crater_->append(flow);
   return file;
 }
 
 template <int Dim>
-std::filesystem::path ResultWriter<Dim>::write_failed_state(const Flow<Dim>& flow) {
-  std::filesystem::path file = folder_ / ("failed_" + fields_file_name(flow.state().step));
-  quicksand::write_fields(file, snapshot(flow));
-  return file;
+std::pair<std::filesystem::path, std::filesystem::path> ResultWriter<Dim>::write_failed_step(const Flow<Dim>& flow) {
+  const State<Dim>& attempt = flow.failed_attempt();
+  const auto file = [&](const State<Dim>& state) { return folder_ / ("failed_" + fields_file_name(state.step)); };
+  quicksand::write_fields(file(flow.state()), snapshot(flow));
+  quicksand::write_fields(file(attempt), snapshot(flow, attempt));
+  return {file(flow.state()), file(attempt)};
 }
 
 template <int Dim>
@@ -143,6 +157,18 @@ void ResultWriter<Dim>::append_history(const Flow<Dim>& flow, const Diagnostics&
                            static_cast<double>(report.projection.iterations)});
   history_->append(line);
   if (bubbles_) bubbles_->append(state, bubbles, report.gas, full_circle(flow.domain().grid));
+}
+
+template <int Dim>
+void ResultWriter<Dim>::append_crater(const Flow<Dim>& flow) {
+  if (crater_) crater_->append(flow);
+}
+
+template <int Dim>
+void ResultWriter<Dim>::sync() const {
+  if (history_) history_->sync();
+  if (bubbles_) bubbles_->sync();
+  if (crater_) crater_->sync();
 }
 
 template <int Dim>

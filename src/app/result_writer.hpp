@@ -3,6 +3,7 @@
 /// The files of a result folder.
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "app/bubble_writer.hpp"
 #include "app/case_config.hpp"
@@ -19,20 +20,28 @@ namespace quicksand {
 template <int Dim>
 class ResultWriter {
  public:
+  /// \param last_step  the step that a run goes on from: tables keep their lines up to it; none: a new run
   /// \throws FileError
-  ResultWriter(const CaseConfig& config, std::filesystem::path folder);
+  ResultWriter(const CaseConfig& config, std::filesystem::path folder, std::optional<std::int64_t> last_step = {});
 
-  /// Field file of the current state, and its crater; returns the file's path. \throws FileError
+  /// Field file of the current state; returns its path. \throws FileError
   std::filesystem::path write_fields(const Flow<Dim>& flow);
-  /// The current state under a name of its own, for looking at what went wrong. \throws FileError
-  std::filesystem::path write_failed_state(const Flow<Dim>& flow);
+  /// The crater of the current state, as it belongs to fields. \throws FileError
+  void append_crater(const Flow<Dim>& flow);
+  /// After a step has failed: the state before it, and what it had come to, under names of their own. \throws FileError
+  std::pair<std::filesystem::path, std::filesystem::path> write_failed_step(const Flow<Dim>& flow);
   /// One line of `history.csv`, those of `bubbles.csv` and `events.csv`, and the crater when it is due.
   /// \throws FileError
   void append_history(const Flow<Dim>& flow, const Diagnostics& diagnostics, const StepReport& report);
+  /// Brings the tables safely to the disk: before a checkpoint, which counts on them. \throws FileError
+  void sync() const;
   /// `summary.json`. \throws FileError
   void write_summary(const Json& summary);
 
  private:
+  /// Fractions, density, velocity and pressure of a state on the flow's grid.
+  FieldSnapshot snapshot(const Flow<Dim>& flow, const State<Dim>& state) const;
+  /// The same of the flow's own state, with gas regions and stresses.
   FieldSnapshot snapshot(const Flow<Dim>& flow) const;
 
   const CaseConfig& config_;

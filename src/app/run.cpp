@@ -1,19 +1,20 @@
 #include "app/run.hpp"
 
-#include <cmath>
 #include <filesystem>
 #include <new>
+#include <optional>
+#include <utility>
 
 #include "app/build_flow.hpp"
-#include "app/grid_sequence.hpp"
+#include "app/checkpoint_schedule.hpp"
+#include "app/checkpoints.hpp"
 #include "app/interrupt.hpp"
+#include "app/output_folder.hpp"
 #include "app/progress.hpp"
 #include "app/result_writer.hpp"
-#include "app/run_statistics.hpp"
-#include "app/time_control.hpp"
+#include "app/step_retry.hpp"
 #include "core/errors.hpp"
 #include "core/threads.hpp"
-#include "physics/energy.hpp"
 #include "physics/remap.hpp"
 #include "physics/time_step.hpp"
 
@@ -21,71 +22,21 @@ namespace quicksand {
 
 namespace {
 
-/// A step that fails is tried again with half the size this often.
-constexpr int most_halvings = 8;
-
-template <int Dim>
-std::vector<double> volumes_with_escaped(const Flow<Dim>& flow) {
-  std::vector<double> volume;
-  for (std::size_t i = 0; i < flow.state().phi.size(); ++i) {
-    volume.push_back(species_volume(flow.domain().grid, flow.state().phi[i]) + flow.escaped()[i]);
-  }
-  return volume;
-}
-
-/// What changes of energy are compared with: kinetic energy, internal energy of the bubbles, and what the whole mass
-/// gains falling through the domain, sum of mass |g_d| length_d. Per radian in axisymmetric flows.
-template <int Dim>
-double energy_scale(const Flow<Dim>& flow) {
-  const Grid<Dim>& grid = flow.domain().grid;
-  const double mass =
-      sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return flow.density()[c] * grid.volume(c); });
-  double scale = kinetic_energy(grid, flow.density(), flow.state().u);
-  for (const Bubble& b : flow.state().gas.bubbles) scale += b.pressure * b.volume / (b.exponent - 1);
-  for (int d = 0; d < Dim; ++d) {
-    const std::vector<double>& faces = grid.global_faces(d);
-    scale += mass * std::abs(flow.parameters().gravity[d]) * (faces.back() - faces.front());
-  }
-  return scale;
-}
-
 /// A run on its way: the parts that the functions below share.
 template <int Dim>
 struct Run {
   const CaseConfig& config;
-  GridSequence<Dim> grids;
-  ResultWriter<Dim> writer;
+  RunMemory<Dim> memory;
   TimeControl control;
-  SteadyState steady;
-  bool is_steady = false;
-  RunStatistics statistics;
-  Progress progress;
+  ResultWriter<Dim> writer;
+  Progress& progress;
   std::vector<GasEvent> remap_events{};  ///< since the last step
 };
-
-/// Advances by at most dt: a failed step is tried again with half of it. \throws NumericalError when all tries fail
-template <int Dim>
-StepReport advance_with_retries(Flow<Dim>& flow, double dt, Run<Dim>& run) {
-  for (int halvings = 0;; ++halvings) {
-    try {
-      return flow.advance(dt);
-    } catch (const NumericalError& error) {
-      if (halvings == most_halvings) throw;
-      dt /= 2;
-      if (dt < run.control.least_step()) {
-        throw NumericalError(std::string(error.what()) + "; half the step, " + number_text(dt) +
-                             ", is below the least that is tried, " + number_text(run.control.least_step()));
-      }
-      run.progress.say("step " + std::to_string(flow.state().step + 1) + ": " + error.what() +
-                       "; trying again with dt " + number_text(dt));
-      run.statistics.count_retry();
-    }
-  }
-}
 
 template <int Dim>
 void write_fields(const Flow<Dim>& flow, Run<Dim>& run) {
   run.progress.wrote(flow.state().time, flow.state().step, run.writer.write_fields(flow).string());
+  run.writer.append_crater(flow);
 }
 
 /// One step and what is written after it. \return whether fields were
@@ -93,16 +44,21 @@ template <int Dim>
 bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
   const State<Dim>& state = flow.state();
   const double stable = stable_step(flow, run.control.cfl());
-  StepReport report = advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable), run);
+  StepReport report =
+      advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable),
+                           {run.config.guard.halvings, run.control.least_step()}, [&](const std::string& failure) {
+                             run.progress.say(failure);
+                             run.memory.statistics.count_retry();
+                           });
   report.gas.insert(report.gas.begin(), run.remap_events.begin(), run.remap_events.end());
   run.remap_events.clear();
-  if (run.control.beyond_limit(state.dt, stable) && run.statistics.count_step_beyond_cfl() == 1) {
+  if (run.control.beyond_limit(state.dt, stable) && run.memory.statistics.count_step_beyond_cfl() == 1) {
     run.progress.say("warning: step " + std::to_string(state.step) + ": dt " + number_text(state.dt) +
                      " exceeds the CFL limit of convection, " + number_text(stable) +
                      "; further such steps are only counted, in summary.json");
   }
-  run.statistics.add(report, volumes_with_escaped(flow), state.time);
-  run.is_steady = run.steady.reached(report, state.time);
+  run.memory.statistics.add(report, flow.volume(), state.time);
+  run.memory.is_steady = run.memory.steady.reached(report, state.time);
   run.writer.append_history(flow, diagnose(flow), report);
   for (const GasEvent& event : report.gas) {
     run.progress.say(event_text(event, state.time, full_circle(flow.domain().grid)));
@@ -123,17 +79,17 @@ void begin_grid(const Flow<Dim>& flow, Run<Dim>& run) {
     text += (d > 0 ? " x " : "") + std::to_string(cells[d]);
     count *= cells[d];
   }
-  run.statistics.begin_grid(text, count, flow.state().time);
+  run.memory.statistics.begin_grid(text, count, flow.state().time);
   run.progress.begin_grid(count);
-  if (run.grids.number() == 1) return;
-  run.progress.say("grid " + std::to_string(run.grids.number()) + " at t = " + number_text(flow.state().time) + ": " +
-                   text + " cells, the smallest " + number_text(flow.domain().grid.smallest_width()));
+  if (run.memory.grids.number() == 1) return;
+  run.progress.say("grid " + std::to_string(run.memory.grids.number()) + " at t = " + number_text(flow.state().time) +
+                   ": " + text + " cells, the smallest " + number_text(flow.domain().grid.smallest_width()));
 }
 
 /// Moves the flow to the next grid when its time has come.
 template <int Dim>
 void change_grid(Flow<Dim>& flow, Run<Dim>& run) {
-  std::optional<Domain<Dim>> domain = run.grids.next(flow);
+  std::optional<Domain<Dim>> domain = run.memory.grids.next(flow);
   if (!domain) return;
   RemapReport report;
   flow = remap(flow, std::move(*domain), report);
@@ -143,39 +99,67 @@ void change_grid(Flow<Dim>& flow, Run<Dim>& run) {
 
 template <int Dim>
 bool is_over(const Flow<Dim>& flow, const Run<Dim>& run) {
-  return run.is_steady || run.control.finished(flow.state().time);
+  return run.memory.is_steady || run.control.finished(flow.state().time);
+}
+
+template <int Dim>
+void write_checkpoint(Flow<Dim>& flow, Run<Dim>& run, bool fields_due) {
+  run.writer.sync();
+  const std::filesystem::path file =
+      quicksand::write_checkpoint(run.config.output.directory, run.config, fields_due, run.memory, flow);
+  run.progress.wrote(flow.state().time, flow.state().step, file.string());
+}
+
+/// The flow at the start of the run, its first results written, or as the checkpoint has it.
+template <int Dim>
+Flow<Dim> begin(Run<Dim>& run, const ResumePoint* resume) {
+  if (resume != nullptr) {
+    Flow<Dim> flow = read_checkpoint<Dim>(*resume->reader, run.config, run.memory);
+    run.control.output_due(flow.state().time);
+    run.progress.begin_grid(flow.domain().grid.cells().size());
+    run.progress.say("resumed from " + resume->reader->path().string());
+    return flow;
+  }
+  Flow<Dim> flow = build_flow<Dim>(run.config, run.memory.grids.first());
+  begin_grid(flow, run);
+  run.memory.statistics.start(flow.volume());
+  run.control.output_due(0);
+  write_fields(flow, run);
+  run.writer.append_history(flow, diagnose(flow), StepReport{});
+  return flow;
 }
 
 /// Takes all steps, or as many as the user lets it. \return whether the end was reached
 template <int Dim>
-bool march(Run<Dim>& run) {
-  Flow<Dim> flow = build_flow<Dim>(run.config, run.grids.first());
-  begin_grid(flow, run);
-  run.statistics.start(volumes_with_escaped(flow), energy_scale(flow));
-  run.control.output_due(0);
-  write_fields(flow, run);
-  run.writer.append_history(flow, diagnose(flow), StepReport{});
-  bool written = true;
+bool march(Run<Dim>& run, const ResumePoint* resume) {
+  Flow<Dim> flow = begin(run, resume);
+  CheckpointSchedule checkpoints(run.config.output.checkpoint, flow.state().time);
+  bool fields_due = resume == nullptr || resume->head.fields_due;
   try {
     while (!is_over(flow, run) && interrupt_signal() == 0) {
       change_grid(flow, run);
-      written = take_step(flow, run);
+      fields_due = take_step(flow, run);
+      if (checkpoints.due(flow.state().time)) write_checkpoint(flow, run, fields_due);
     }
   } catch (const NumericalError& error) {
-    const std::filesystem::path file = run.writer.write_failed_state(flow);
+    const auto [before, after] = run.writer.write_failed_step(flow);
     throw NumericalError("step " + std::to_string(flow.state().step + 1) + " at time " +
                          number_text(flow.state().time) + ": " + error.what() + "; the state before it is in " +
-                         file.string());
+                         before.string() + ", what it came to in " + after.string());
   }
-  if (!written) write_fields(flow, run);
-  return is_over(flow, run);
+  const bool over = is_over(flow, run);
+  // Fields of an interruption go when the run is resumed; tables may hold nothing that does not belong to the results.
+  if (!over || run.config.output.checkpoint.every) write_checkpoint(flow, run, fields_due);
+  if (!fields_due && over) write_fields(flow, run);
+  if (!fields_due && !over) run.writer.write_fields(flow);
+  return over;
 }
 
 /// Leaves a summary of a run that is about to end with an error, if it can still be written.
 template <int Dim>
 void summarize_failure(Run<Dim>& run, const std::string& message) {
   try {
-    run.writer.write_summary(run.statistics.summary("failed", message));
+    run.writer.write_summary(run.memory.statistics.summary("failed", message));
   } catch (const FileError&) {
     // The error that ended the run is the one to report.
   }
@@ -183,8 +167,8 @@ void summarize_failure(Run<Dim>& run, const std::string& message) {
 
 template <int Dim>
 std::string steadiness_text(const Run<Dim>& run) {
-  return std::string(run.is_steady ? "the flow is steady" : "warning: the flow is not steady yet") +
-         ", time |du/dt| / max |u| = " + number_text(run.steady.unsteadiness());
+  return std::string(run.memory.is_steady ? "the flow is steady" : "warning: the flow is not steady yet") +
+         ", time |du/dt| / max |u| = " + number_text(run.memory.steady.unsteadiness());
 }
 
 template <int Dim>
@@ -192,19 +176,23 @@ int run_in(const CaseConfig& config, const RunOptions& options) {
   const std::string& folder = config.output.directory;
   std::vector<std::string> species;
   for (const Species& s : config.species) species.push_back(s.name);
+  Progress progress(config.time.end, options.quiet);
+  std::optional<ResumePoint> resume;
+  if (options.resume) {
+    resume = find_resume_point(folder, config, [&](const std::string& text) { progress.say(text); });
+    rewind_output_folder(folder, resume->head.step, resume->head.fields_due);
+  }
   std::vector<double> stage_ends;
   for (const StageConfig& stage : config.stages) stage_ends.push_back(stage.until);
-  Run<Dim> run{config,
-               GridSequence<Dim>(config),
-               ResultWriter<Dim>(config, folder),
-               TimeControl(config.time, config.output.fields, stage_ends),
-               SteadyState(config.time.until_steady),
-               false,
-               RunStatistics(species),
-               Progress(config.time.end, options.quiet)};
+  // Made one by one: g++ 12 destroys members of an aggregate twice when a later one throws.
+  RunMemory<Dim> memory{GridSequence<Dim>(config), SteadyState(config.time.until_steady), false,
+                        RunStatistics(species)};
+  ResultWriter<Dim> writer(config, folder, resume ? std::optional(resume->head.step) : std::nullopt);
+  TimeControl control(config.time, config.output.fields, stage_ends);
+  Run<Dim> run{config, std::move(memory), std::move(control), std::move(writer), progress};
   bool finished = false;
   try {
-    finished = march(run);
+    finished = march(run, resume ? &*resume : nullptr);
   } catch (const std::bad_alloc&) {
     summarize_failure(run, "out of memory");
     throw;
@@ -212,14 +200,16 @@ int run_in(const CaseConfig& config, const RunOptions& options) {
     summarize_failure(run, error.what());
     throw;
   }
-  if (run.steady.wanted()) {
-    run.statistics.note_steadiness(run.is_steady, run.steady.unsteadiness());
+  if (run.memory.steady.wanted()) {
+    run.memory.statistics.note_steadiness(run.memory.is_steady, run.memory.steady.unsteadiness());
     if (finished) run.progress.say(steadiness_text(run));
   }
   const std::string status = finished ? "finished" : "interrupted";
   run.writer.write_summary(
-      run.statistics.summary(status, finished ? "" : "by signal " + std::to_string(interrupt_signal())));
-  run.progress.say(status + " after " + std::to_string(run.statistics.steps()) + " steps; results in " + folder);
+      run.memory.statistics.summary(status, finished ? "" : "by signal " + std::to_string(interrupt_signal())));
+  // Without an interval they are there for interruptions only.
+  if (finished && !config.output.checkpoint.every) remove_checkpoints(folder);
+  run.progress.say(status + " after " + std::to_string(run.memory.statistics.steps()) + " steps; results in " + folder);
   return finished ? 0 : 128 + interrupt_signal();
 }
 

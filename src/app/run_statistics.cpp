@@ -40,10 +40,7 @@ void RunStatistics::begin_grid(const std::string& cells_text, long cells, double
   grids_.push_back({cells_text, cells, time});
 }
 
-void RunStatistics::start(std::vector<double> volume, double energy_scale) {
-  initial_volume_ = std::move(volume);
-  energy_scale_ = energy_scale;
-}
+void RunStatistics::start(std::vector<double> volume) { initial_volume_ = std::move(volume); }
 
 void RunStatistics::add(const StepReport& report, const std::vector<double>& volume, double time) {
   ++steps_;
@@ -55,10 +52,9 @@ void RunStatistics::add(const StepReport& report, const std::vector<double>& vol
   for (std::size_t i = 0; i < volume.size(); ++i) {
     volume_error_[i] = std::max(volume_error_[i], std::abs(volume[i] - initial_volume_[i]) / whole);
   }
-  if (energy_scale_ > 0) {
-    redistribution_rise_ = std::max(redistribution_rise_, report.redistribution_energy_change / energy_scale_);
-    projection_rise_ = std::max(projection_rise_, (report.projection_energy_change - report.gas_work) / energy_scale_);
-  }
+  redistribution_rise_ = std::max(redistribution_rise_, report.redistribution_energy_change / report.energy_scale);
+  projection_rise_ =
+      std::max(projection_rise_, (report.projection_energy_change - report.gas_work) / report.energy_scale);
   const auto iterations = iterations_of(report);
   for (std::size_t k = 0; k < phase_names.size(); ++k) {
     seconds_[k] += report.seconds[k];
@@ -72,8 +68,52 @@ void RunStatistics::add(const StepReport& report, const std::vector<double>& vol
   largest_gap_ = std::max(largest_gap_, report.diffusion.gap);
 }
 
+double RunStatistics::wall_seconds() const {
+  return earlier_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void RunStatistics::carry_grids(Archive& archive) {
+  carry(archive, "statistics/grid/cells", grids_, &OnGrid::cells);
+  carry(archive, "statistics/grid/from", grids_, &OnGrid::from);
+  carry(archive, "statistics/grid/steps", grids_, &OnGrid::steps);
+  for (std::size_t i = 0; i < grids_.size(); ++i) {
+    const std::string name = "statistics/grid/" + std::to_string(i);
+    archive.exchange(name + "/text", grids_[i].cells_text);
+    carry_numbers(archive, name + "/seconds", grids_[i].seconds);
+  }
+  carry(archive, "statistics/cell_steps", cell_steps_);
+}
+
+void RunStatistics::exchange(Archive& archive) {
+  double wall = wall_seconds();
+  carry(archive, "statistics/wall_seconds", wall);
+  carry(archive, "statistics/resumptions", resumptions_);
+  if (archive.loading()) {
+    start_ = std::chrono::steady_clock::now();
+    earlier_seconds_ = wall;
+    ++resumptions_;
+  }
+  carry_grids(archive);
+  carry(archive, "statistics/steps", steps_);
+  carry(archive, "statistics/time", time_);
+  carry(archive, "statistics/retries", retries_);
+  carry(archive, "statistics/steps_beyond_cfl", steps_beyond_cfl_);
+  carry(archive, "statistics/fallbacks", fallbacks_);
+  carry(archive, "statistics/stagnated", stagnated_);
+  carry(archive, "statistics/largest_gap", largest_gap_);
+  initial_volume_.resize(species_.size());
+  carry_numbers(archive, "statistics/initial_volume", initial_volume_);
+  carry_numbers(archive, "statistics/volume_error", volume_error_);
+  carry(archive, "statistics/redistribution_rise", redistribution_rise_);
+  carry(archive, "statistics/projection_rise", projection_rise_);
+  carry_numbers(archive, "statistics/seconds", seconds_);
+  carry_numbers(archive, "statistics/iterations", iterations_);
+  carry_numbers(archive, "statistics/most_iterations", most_iterations_);
+  carry(archive, "statistics/linear_iterations", linear_iterations_);
+}
+
 Json RunStatistics::summary(const std::string& status, const std::string& message) const {
-  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double wall = wall_seconds();
   Json json;
   json["status"] = status;
   if (!message.empty()) json["message"] = message;
@@ -83,6 +123,7 @@ Json RunStatistics::summary(const std::string& status, const std::string& messag
     json["steady"] = steadiness_->first;
     json["unsteadiness"] = steadiness_->second;
   }
+  json["resumptions"] = resumptions_;
   json["retried_steps"] = retries_;
   json["steps_beyond_cfl"] = steps_beyond_cfl_;
   json["cells"] = grids_.back().cells;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/archive.hpp"
 #include "core/text_output.hpp"
 #include "physics/diagnostics.hpp"
 #include "physics/flow.hpp"
@@ -23,14 +24,10 @@ class RunStatistics {
   /// The steps that follow are on a grid with so many owned cells, from `time` on.
   void begin_grid(const std::string& cells_text, long cells, double time);
 
-  /// Notes what the steps are compared with.
-  /// \param volume        of every species at the start, in the unit of species_volume()
-  /// \param energy_scale  positive energy that increases of energy are divided by, in the unit of StepReport's
-  /// energies; with
-  ///                      zero none are recorded
-  void start(std::vector<double> volume, double energy_scale);
+  /// Notes what the steps are compared with: Flow::volume() at the start.
+  void start(std::vector<double> volume);
   /// Adds one accepted step.
-  /// \param volume  of every species now, plus what has escaped
+  /// \param volume  Flow::volume() now
   /// \param time    after the step
   void add(const StepReport& report, const std::vector<double>& volume, double time);
   void count_retry() { ++retries_; }
@@ -41,6 +38,8 @@ class RunStatistics {
   void note_steadiness(bool steady, double unsteadiness) { steadiness_ = {steady, unsteadiness}; }
 
   long steps() const { return steps_; }
+  /// Hands everything over, the time on the wall so far included.
+  void exchange(Archive& archive);
 
   /// The document of `summary.json`.
   Json summary(const std::string& status, const std::string& message) const;
@@ -48,13 +47,18 @@ class RunStatistics {
  private:
   using PhaseSeconds = std::array<double, phase_names.size()>;
 
+  double wall_seconds() const;
+  void carry_grids(Archive& archive);
+
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double earlier_seconds_ = 0;  ///< on the wall, before the run was resumed
+  long resumptions_ = 0;
   std::vector<std::string> species_;
   /// Steps and times on one grid of the run.
   struct OnGrid {
     std::string cells_text;
-    long cells;
-    double from;
+    long cells = 0;
+    double from = 0;
     long steps = 0;
     PhaseSeconds seconds{};
   };
@@ -70,7 +74,6 @@ class RunStatistics {
   double largest_gap_ = 0;
   std::vector<double> initial_volume_;
   std::vector<double> volume_error_;
-  double energy_scale_ = 0;
   double redistribution_rise_ = 0;
   double projection_rise_ = 0;
   PhaseSeconds seconds_{};

@@ -29,6 +29,11 @@ bool SteadyState::reached(const StepReport& report, double time) {
   return tolerance_ && unsteadiness_ <= *tolerance_;
 }
 
+void SteadyState::exchange(Archive& archive) {
+  carry(archive, "steady/largest_norm", largest_norm_);
+  carry(archive, "steady/unsteadiness", unsteadiness_);
+}
+
 TimeControl::TimeControl(const TimeSettings& time, const OutputSchedule& fields, std::vector<double> stops)
     : time_(time), fields_(fields), stops_(std::move(stops)) {}
 

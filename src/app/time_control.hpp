@@ -2,6 +2,7 @@
 /// \file
 /// Sizes of time steps and times of output.
 #include "app/case_config.hpp"
+#include "core/archive.hpp"
 #include "physics/flow.hpp"
 
 namespace quicksand {
@@ -18,6 +19,8 @@ class SteadyState {
   /// time ||du/dt|| / max ||u|| of the last step; 0 for a flow that has not moved at all.
   double unsteadiness() const { return unsteadiness_; }
   bool wanted() const { return tolerance_.has_value(); }
+  /// Hands over what it has seen.
+  void exchange(Archive& archive);
 
  private:
   std::optional<double> tolerance_;

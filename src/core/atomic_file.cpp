@@ -37,17 +37,17 @@ class Descriptor {
   int fd_;
 };
 
-void flush_to_disk(const std::filesystem::path& path, int flags) {
-  const Descriptor file(path, flags);
-  // Some file systems know no fsync for folders and say EINVAL; there is nothing more to do on those.
-  if (::fsync(file.get()) != 0 && errno != EINVAL) fail(path, "cannot flush to disk", errno);
-}
-
 std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
 }  // namespace
+
+void flush_to_disk(const std::filesystem::path& path) {
+  const Descriptor file(path, O_RDONLY);
+  // Some file systems know no fsync for folders and say EINVAL; there is nothing more to do on those.
+  if (::fsync(file.get()) != 0 && errno != EINVAL) fail(path, "cannot flush to disk", errno);
+}
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
   std::error_code ignored;
@@ -64,23 +64,27 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::commit() {
-  flush_to_disk(temporary_, O_RDONLY);
+  flush_to_disk(temporary_);
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "cannot rename the finished file", errno);
   committed_ = true;
-  flush_to_disk(folder_of(path_), O_RDONLY | O_DIRECTORY);
+  flush_to_disk(folder_of(path_));
 }
 
-void write_text_file(const std::filesystem::path& path, std::string_view text) {
+void write_file(const std::filesystem::path& path, std::initializer_list<std::string_view> parts) {
   AtomicFile file(path);
   Descriptor out(file.temporary(), O_WRONLY | O_CREAT | O_TRUNC);
-  while (!text.empty()) {
-    const ssize_t written = ::write(out.get(), text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(path, "cannot write", errno);
-    text.remove_prefix(static_cast<std::size_t>(written));
+  for (std::string_view part : parts) {
+    while (!part.empty()) {
+      const ssize_t written = ::write(out.get(), part.data(), part.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(path, "cannot write", errno);
+      part.remove_prefix(static_cast<std::size_t>(written));
+    }
   }
   if (out.close() != 0) fail(path, "cannot write", errno);
   file.commit();
 }
+
+void write_text_file(const std::filesystem::path& path, std::string_view text) { write_file(path, {text}); }
 
 }  // namespace quicksand

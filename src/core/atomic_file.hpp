@@ -2,6 +2,7 @@
 /// \file
 /// Files that appear under their final name only when complete.
 #include <filesystem>
+#include <initializer_list>
 #include <string_view>
 
 namespace quicksand {
@@ -30,8 +31,14 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-/// Writes a small text file in one go, complete or not at all.
+/// Brings what was written to a file, or the names in a folder, safely to the disk. \throws FileError
+void flush_to_disk(const std::filesystem::path& path);
+
+/// Writes a file from its parts, one after the other, complete or not at all.
 /// \throws FileError with path and reason
+void write_file(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
+
+/// The same for a text.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace quicksand

@@ -23,6 +23,7 @@ class Field {
 
   void fill(T value) { std::fill(values_.begin(), values_.end(), value); }
   std::ptrdiff_t size() const { return static_cast<std::ptrdiff_t>(values_.size()); }
+  std::vector<T>& values() { return values_; }  ///< of all positions, for storing; of a fixed length
 
  private:
   std::vector<T> values_;

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/atomic_file.hpp"
 #include "core/errors.hpp"
 
 namespace quicksand {
@@ -74,6 +75,9 @@ Handle access_properties() {
 /// Largest chunk of a compressed dataset.
 constexpr std::size_t largest_chunk_bytes = std::size_t{1} << 20;
 
+/// By how much the memory of a file that is put together grows.
+constexpr std::size_t memory_increment = std::size_t{1} << 22;
+
 /// Chunks of whole planes or rows: the slowest axes are cut first.
 std::vector<hsize_t> chunk_extents(const Extents& extents, std::size_t value_bytes) {
   std::vector<hsize_t> chunk(extents.begin(), extents.end());
@@ -115,11 +119,15 @@ std::size_t count(const Extents& extents) {
 
 // Writer
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, int compression) : file_(path), compression_(compression) {
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, int compression, std::size_t front)
+    : path_(path), compression_(compression), front_(front) {
   assert(compression >= 0 && compression <= 9);
   silence_library();
-  id_ = checked(H5Fcreate(file_.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access_properties().get()), path,
-                "create the file");
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  checked(H5Pset_userblock(creation.get(), front), path, "create the file");
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  checked(H5Pset_fapl_core(access.get(), memory_increment, false), path, "create the file");
+  id_ = checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), path, "create the file");
 }
 
 Hdf5Writer::~Hdf5Writer() {
@@ -136,17 +144,19 @@ void Hdf5Writer::write_raw(const std::string& name, const void* values, std::siz
       H5Sclose);
   const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  checked(H5Pset_create_intermediate_group(links.get(), 1), file_.path(), what);
+  checked(H5Pset_create_intermediate_group(links.get(), 1), path_, what);
+  // Without times the same values make the same file.
+  checked(H5Pset_obj_track_times(creation.get(), false), path_, what);
   if (compression_ > 0 && !dims.empty() && size > 0) {
     const auto chunk = chunk_extents(extents, H5Tget_size(type));
-    checked(H5Pset_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data()), file_.path(), what);
-    checked(H5Pset_shuffle(creation.get()), file_.path(), what);
-    checked(H5Pset_deflate(creation.get(), static_cast<unsigned>(compression_)), file_.path(), what);
+    checked(H5Pset_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data()), path_, what);
+    checked(H5Pset_shuffle(creation.get()), path_, what);
+    checked(H5Pset_deflate(creation.get(), static_cast<unsigned>(compression_)), path_, what);
   }
-  const Handle set(checked(H5Dcreate2(id_, name.c_str(), type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
-                           file_.path(), what),
-                   H5Dclose);
-  if (size > 0) checked(H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), file_.path(), what);
+  const Handle set(
+      checked(H5Dcreate2(id_, name.c_str(), type, space.get(), links.get(), creation.get(), H5P_DEFAULT), path_, what),
+      H5Dclose);
+  if (size > 0) checked(H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path_, what);
 }
 
 void Hdf5Writer::write(const std::string& name, std::span<const double> values, const Extents& extents) {
@@ -168,9 +178,9 @@ void Hdf5Writer::attribute_raw(const std::string& name, const void* value, std::
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle attribute(checked(H5Acreate_by_name(id_, object.c_str(), name.c_str(), type, space.get(), H5P_DEFAULT,
                                                    H5P_DEFAULT, H5P_DEFAULT),
-                                 file_.path(), what),
+                                 path_, what),
                          H5Aclose);
-  checked(H5Awrite(attribute.get(), type, value), file_.path(), what);
+  checked(H5Awrite(attribute.get(), type, value), path_, what);
 }
 
 void Hdf5Writer::attribute(const std::string& name, double value, const std::string& object) {
@@ -185,10 +195,16 @@ void Hdf5Writer::attribute(const std::string& name, const std::string& value, co
   attribute_raw(name, value.c_str(), text_type(value.size()).get(), object);
 }
 
-void Hdf5Writer::commit() {
+void Hdf5Writer::commit(const std::function<std::string(std::string_view)>& front) {
   assert(id_ >= 0);
-  checked(H5Fclose(std::exchange(id_, -1)), file_.path(), "close the file");
-  file_.commit();
+  checked(H5Fflush(id_, H5F_SCOPE_LOCAL), path_, "put the file together");
+  void** memory = nullptr;
+  checked(H5Fget_vfd_handle(id_, H5P_DEFAULT, reinterpret_cast<void**>(&memory)), path_, "put the file together");
+  // The size is that without the free bytes.
+  const auto size = checked(H5Fget_file_image(id_, nullptr, 0), path_, "put the file together");
+  const std::string_view content(static_cast<const char*>(*memory) + front_, static_cast<std::size_t>(size));
+  write_file(path_, {front ? front(content) : std::string(front_, '\0'), content});
+  checked(H5Fclose(std::exchange(id_, -1)), path_, "close the file");
 }
 
 // Reader

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
-
-#include "core/atomic_file.hpp"
 
 namespace quicksand {
 
@@ -21,7 +21,8 @@ using Extents = std::vector<std::size_t>;
 /// Number of values of a dataset.
 std::size_t count(const Extents& extents);
 
-/// New HDF5 file that appears under its name with commit() and not before.
+/// New HDF5 file that appears under its name with commit() and not before. It is put together in memory: when a disk
+/// is full the library neither tells of all that it failed to write nor can it close the file.
 ///
 /// Names are paths inside the file ("fields/pressure"); groups on the way are made as needed. All functions throw
 /// FileError with the file, the object and the reason.
@@ -29,7 +30,8 @@ class Hdf5Writer {
  public:
   /// \param compression  0 (none) ... 9 (smallest): deflate level of the datasets that follow, after shuffling the
   /// bytes
-  explicit Hdf5Writer(const std::filesystem::path& path, int compression = 0);
+  /// \param front  bytes kept free in front of what HDF5 writes: 0, or 512 times a power of two
+  explicit Hdf5Writer(const std::filesystem::path& path, int compression = 0, std::size_t front = 0);
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
@@ -47,16 +49,18 @@ class Hdf5Writer {
   void attribute(const std::string& name, std::int64_t value, const std::string& object = "/");
   void attribute(const std::string& name, const std::string& value, const std::string& object = "/");
 
-  /// Closes the file and gives it its final name. Nothing may be written after.
-  void commit();
+  /// Writes the file under its final name. Nothing may be added after.
+  /// \param front  makes the bytes for the free ones in front, as many as they are, from the bytes behind them
+  void commit(const std::function<std::string(std::string_view)>& front = {});
 
  private:
   void write_raw(const std::string& name, const void* values, std::size_t size, std::int64_t type,
                  const Extents& extents);
   void attribute_raw(const std::string& name, const void* value, std::int64_t type, const std::string& object);
 
-  AtomicFile file_;
+  std::filesystem::path path_;
   int compression_;
+  std::size_t front_;
   std::int64_t id_ = -1;
 };
 

@@ -155,20 +155,12 @@ void Json::print(std::string& out, int level) const {
              value_);
 }
 
-CsvWriter::CsvWriter(const std::filesystem::path& path, std::vector<std::string> columns)
-    : path_(path), columns_(std::move(columns)) {
-  write_text_file(path_, header(columns_) + "\n");
-  open();
-}
-
-CsvWriter::CsvWriter(const std::filesystem::path& path, std::vector<std::string> columns, std::int64_t last_step)
+CsvWriter::CsvWriter(const std::filesystem::path& path, std::vector<std::string> columns,
+                     std::optional<std::int64_t> last_step)
     : path_(path), columns_(std::move(columns)) {
   const std::string names = header(columns_);
-  write_text_file(path_, std::filesystem::exists(path_) ? kept_lines(path_, names, last_step) : names + "\n");
-  open();
-}
-
-void CsvWriter::open() {
+  const bool goes_on = last_step && std::filesystem::exists(path_);
+  write_text_file(path_, goes_on ? kept_lines(path_, names, *last_step) : names + "\n");
   out_.open(path_, std::ios::app);
   if (!out_) throw FileError(path_.string() + ": cannot open for writing");
 }
@@ -201,5 +193,7 @@ void CsvWriter::write(const std::string& text) {
   out_ << text << std::flush;
   if (!out_) throw FileError(path_.string() + ": cannot write");
 }
+
+void CsvWriter::sync() const { flush_to_disk(path_); }
 
 }  // namespace quicksand

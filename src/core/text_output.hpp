@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -63,12 +64,11 @@ std::string json_quoted(std::string_view text);
 class CsvWriter {
  public:
   /// Starts a new table, replacing a file of that name.
-  /// \throws FileError
-  CsvWriter(const std::filesystem::path& path, std::vector<std::string> columns);
-  /// Continues a table whose first column counts steps: lines beyond `last_step` and a torn last line are dropped.
-  /// A file that does not exist is started.
+  /// \param last_step  continues a table whose first column counts steps: lines beyond this one and a torn last line
+  ///                   are dropped. A file that does not exist is started.
   /// \throws FileError, also where the columns of the file are others
-  CsvWriter(const std::filesystem::path& path, std::vector<std::string> columns, std::int64_t last_step);
+  CsvWriter(const std::filesystem::path& path, std::vector<std::string> columns,
+            std::optional<std::int64_t> last_step = {});
 
   const std::vector<std::string>& columns() const { return columns_; }
   /// Adds one line. \pre one value per column \throws FileError
@@ -77,9 +77,10 @@ class CsvWriter {
   void append_lines(std::span<const std::vector<double>> lines);
   /// Adds one line of texts that need no quotes. \pre one per column \throws FileError
   void append_text(std::span<const std::string> values);
+  /// Brings all lines so far safely to the disk. \throws FileError
+  void sync() const;
 
  private:
-  void open();
   void write(const std::string& text);
 
   std::filesystem::path path_;

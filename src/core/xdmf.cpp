@@ -96,18 +96,18 @@ std::string xdmf_text(const std::vector<XdmfEntry>& entries) {
   return out + "    </Grid>\n  </Domain>\n</Xdmf>\n";
 }
 
-XdmfSeries::XdmfSeries(std::filesystem::path folder, std::int64_t last_step) : folder_(std::move(folder)) {
+XdmfSeries::XdmfSeries(std::filesystem::path folder) : folder_(std::move(folder)) {
   for (const auto& item : std::filesystem::directory_iterator(folder_)) {
-    if (!is_field_file(item.path())) continue;
-    const XdmfEntry entry = xdmf_entry(item.path());
-    if (entry.step <= last_step) insert(entry);
+    if (is_field_file(item.path())) insert(xdmf_entry(item.path()));
   }
 }
 
 void XdmfSeries::add(const std::filesystem::path& field_file) {
   insert(xdmf_entry(field_file));
-  write_text_file(folder_ / "fields.xdmf", xdmf_text(entries_));
+  write();
 }
+
+void XdmfSeries::write() const { write_text_file(folder_ / "fields.xdmf", xdmf_text(entries_)); }
 
 void XdmfSeries::insert(const XdmfEntry& entry) {
   const auto place = std::lower_bound(entries_.begin(), entries_.end(), entry.step,

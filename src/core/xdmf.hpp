@@ -3,7 +3,6 @@
 /// `fields.xdmf`: the field files of a run as a time series for ParaView and VisIt.
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -36,11 +35,13 @@ std::string xdmf_text(const std::vector<XdmfEntry>& entries);
 /// Keeps `fields.xdmf` in step with the field files of a result folder.
 class XdmfSeries {
  public:
-  /// Starts from the field files that are in the folder already, up to `last_step`: the files of a run that is resumed.
-  explicit XdmfSeries(std::filesystem::path folder, std::int64_t last_step = std::numeric_limits<std::int64_t>::max());
+  /// Starts from the field files that are in the folder already: those of a run that is resumed.
+  explicit XdmfSeries(std::filesystem::path folder);
 
   /// Adds a field file of the folder and rewrites `fields.xdmf`. \throws FileError
   void add(const std::filesystem::path& field_file);
+  /// Writes `fields.xdmf` as it stands. \throws FileError
+  void write() const;
   const std::vector<XdmfEntry>& entries() const { return entries_; }
 
  private:

@@ -1,5 +1,6 @@
 #include "physics/flow.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -33,15 +34,25 @@ void clear_without_mass(const Grid<Dim>& grid, const CellField& rho, CellVectors
   }
 }
 
+/// Fluxes go to the side they point to, and what is not a number would go nowhere, unseen.
 template <int Dim>
-void require_finite(const Grid<Dim>& grid, const State<Dim>& state) {
-  const double checksum = sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) {
-    double total = 0;
-    for (const CellField& phi_i : state.phi) total += phi_i[c];
-    for (int d = 0; d < Dim; ++d) total += state.u[d][c];
-    return total;
-  });
-  if (!std::isfinite(checksum)) throw NumericalError("the flow has values that are not finite");
+void require_finite(const Grid<Dim>& grid, const FaceScalars<Dim>& velocity) {
+  double checksum = 0;
+  for (int d = 0; d < Dim; ++d) {
+    checksum += sum<Face>(grid.layout(), grid.faces(d), [&](Face f) { return velocity[d][f]; });
+  }
+  if (!std::isfinite(checksum)) throw NumericalError("the face velocities have values that are not finite");
+}
+
+/// Whether something comes in at a given velocity, and brings energy.
+template <int Dim>
+bool has_inflow(const Sides<Dim>& sides) {
+  for (const auto& axis : sides.side) {
+    for (const Side& side : axis) {
+      if (side.kind == SideKind::inflow) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -119,6 +130,8 @@ void Flow<Dim>::initialize() {
   add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -dt, u_hat_);
   state_.acceleration = u_hat_;
   refresh();
+  volume_ = volumes(grid, state_.phi, escaped_);
+  energy_scale_ = energy_at_stake(grid, rho_, state_, parameters_.gravity);
 }
 
 template <int Dim>
@@ -130,6 +143,8 @@ void Flow<Dim>::resume(std::vector<double> escaped) {
   }
   find_elements(state_, total_, interfaces_, elements_);
   mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
+  volume_ = volumes(domain_.grid, state_.phi, escaped_);
+  energy_scale_ = energy_at_stake(domain_.grid, rho_, state_, parameters_.gravity);
 }
 
 template <int Dim>
@@ -137,17 +152,28 @@ StepReport Flow<Dim>::advance(double dt) {
   try {
     return step(dt);
   } catch (const NumericalError&) {
-    forget_failed_step();
+    leave_failed_step(dt);
     throw;
   }
 }
 
 template <int Dim>
-void Flow<Dim>::forget_failed_step() {
+void Flow<Dim>::leave_failed_step(double dt) {
+  if (parts_done_ < 3) next_.phi = state_.phi;
+  if (parts_done_ < 4) next_.gas = state_.gas;
+  if (parts_done_ < 5) {
+    next_.u = state_.u;
+    next_.pressure = state_.pressure;
+  }
+  next_.time = state_.time + dt;
+  next_.step = state_.step + 1;
+  next_.dt = dt;
+  // First guesses of a failed step may be what made it fail, or not finite.
   for (CellField& H_i : redistribution_.H_species) H_i.fill(0);
   mac_.potential.fill(0);
   diffusion_.stress.fill({});
-  diffusion_.multiplier.fill({});
+  diffusion_.multiplier = multiplier_before_;
+  diffusion_.penalty = penalty_before_;
   mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
   find_elements(state_, total_, interfaces_, elements_);
 }
@@ -198,8 +224,15 @@ StepReport Flow<Dim>::step(double dt) {
   const FlowParameters<Dim>& par = parameters_;
   StepReport report;
   Stopwatch watch;
-  const auto clock = [&](Phase phase) { report.seconds[static_cast<std::size_t>(phase)] += watch.lap(); };
+  const auto clock = [&](Phase phase, FaceVelocities<Dim>* velocities = nullptr) {
+    report.seconds[static_cast<std::size_t>(phase)] += watch.lap();
+    ++parts_done_;
+    if (watcher_) watcher_({parts_done_, velocities, momentum_tilde_, u_bar_, next_});
+  };
   std::vector<double> escaped = escaped_;
+  parts_done_ = 0;
+  multiplier_before_ = diffusion_.multiplier;
+  penalty_before_ = diffusion_.penalty;
 
   for (int d = 0; d < Dim; ++d) lagged_[d].fill(0);
   add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -1.0, lagged_);
@@ -208,10 +241,11 @@ StepReport Flow<Dim>::step(double dt) {
     ConvectionWork<Dim> work(domain_.layout(), par.species.size());
     FaceVelocities<Dim> velocities(domain_.layout());
     predict_velocities(domain_, in, dt, work, velocities);
-    clock(Phase::convection);
+    clock(Phase::convection, &velocities);
     find_voids(domain_, total_, liquid_, dt, mac_.inflow);
     report.mac = project_face_velocities(domain_, rho_, liquid_, mac_.inflow, par.linear, mac_, velocities.mac);
-    clock(Phase::mac_projection);
+    clock(Phase::mac_projection, &velocities);
+    require_finite(grid, velocities.mac);
     split_velocities(domain_, in, work, velocities);
     convect(domain_, par.species, in, dt, velocities, work, next_.phi, momentum_tilde_, escaped);
   }
@@ -235,8 +269,8 @@ StepReport Flow<Dim>::step(double dt) {
   find_elements(next_, next_total_, interfaces_, elements_);
   clock(Phase::redistribute_volume);
   report.momentum = redistribute_momentum(domain_, momentum_tilde_, next_rho_, par.momentum, redistribution_, u_bar_);
-  report.redistribution_energy_change = kinetic_energy(grid, next_rho_, u_bar_) - energy_tilde;
   clock(Phase::redistribute_momentum);
+  report.redistribution_energy_change = kinetic_energy(grid, next_rho_, u_bar_) - energy_tilde;
 
   next_.pressure = state_.pressure;
   add_uniform(grid.layout(), grid.cells(), u_bar_, dt, par.gravity, u_hat_);
@@ -254,18 +288,28 @@ StepReport Flow<Dim>::step(double dt) {
 
   add_scaled(grid.layout(), grid.cells(), u_star, -dt, lagged_, u_star);
   project(dt, report);
+  clock(Phase::projection);
   scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, u_bar_, next_.acceleration);
-  require_finite(grid, next_);
-  report.momentum_norm = std::sqrt(2 * kinetic_energy(grid, next_rho_, next_.u));
+  const double energy = kinetic_energy(grid, next_rho_, next_.u);
+  report.momentum_norm = std::sqrt(2 * energy);
   scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, state_.u, u_hat_);
   report.momentum_change = std::sqrt(2 * kinetic_energy(grid, next_rho_, u_hat_));
-  clock(Phase::projection);
+
+  require_finite(grid, next_);
+  const double largest_energy = std::max({energy_scale_, energy_tilde, energy});
+  report.energy_scale = std::max(largest_energy, negligible_energy(grid, next_rho_, dt));
+  const StepBalance balance{volume_, volumes(grid, next_.phi, escaped), report.redistribution_energy_change,
+                            has_inflow(domain_.sides) ? 0.0 : report.projection_energy_change - report.gas_work,
+                            report.energy_scale};
+  check_balance(balance, par.species, par.guard);
 
   next_.time = state_.time + dt;
   next_.step = state_.step + 1;
   next_.dt = dt;
   std::swap(state_, next_);
   escaped_ = escaped;
+  volume_ = balance.volume_after;
+  energy_scale_ = largest_energy;
   refresh();
   return report;
 }

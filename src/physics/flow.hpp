@@ -2,9 +2,11 @@
 /// \file
 /// The time step: the report's equations strung together.
 #include <array>
+#include <functional>
 #include <string_view>
 #include <vector>
 
+#include "core/archive.hpp"
 #include "core/domain.hpp"
 #include "physics/convection.hpp"
 #include "physics/diffusion.hpp"
@@ -12,6 +14,7 @@
 #include "physics/projection.hpp"
 #include "physics/redistribution.hpp"
 #include "physics/state.hpp"
+#include "physics/step_guard.hpp"
 
 namespace quicksand {
 
@@ -28,6 +31,7 @@ struct FlowParameters {
                         Method::jacobi};  ///< momentum redistribution; cheap, and energy hangs on it
   ObstacleOptions obstacle;
   DiffusionOptions diffusion;
+  GuardSettings guard;
 };
 
 enum class Phase { convection, mac_projection, redistribute_volume, redistribute_momentum, diffusion, projection };
@@ -44,11 +48,26 @@ struct StepReport {
   SolveReport projection;
   double redistribution_energy_change = 0;  ///< kinetic energy after less before, (24)-(27) and (11) together
   double projection_energy_change = 0;      ///< kinetic energy of u^{n+1} less that of (52)
+  double energy_scale = 0;                  ///< what changes of energy are compared with: the largest energy so far
   double momentum_norm = 0;                 ///< sqrt(sum V rho |u^{n+1}|^2)
   double momentum_change = 0;               ///< sqrt(sum V rho |u^{n+1} - u^n|^2) / dt
   double gas_work = 0;                      ///< what gas at different pressures has done in the projection
   std::vector<GasEvent> gas;                ///< what happened to the bubbles
 };
+
+/// What the phases of a step in progress hand on, open to whoever watches them.
+template <int Dim>
+struct StepInProgress {
+  int part;  ///< of the step that has ended, from 1: phase by phase, convection being in two with one between
+  FaceVelocities<Dim>* face_velocities;  ///< while they exist: until convection is done, else null
+  CellVectors<Dim>& momentum_tilde;
+  CellVectors<Dim>& u_bar;
+  State<Dim>& next;  ///< fractions from part 3 on, velocities from part 6 on
+};
+
+/// Called at the end of every phase, twice for convection, which goes on after the MAC projection.
+template <int Dim>
+using PhaseWatcher = std::function<void(StepInProgress<Dim>)>;
 
 /// A flow on one grid: its state and the work arrays of its phases.
 template <int Dim>
@@ -63,6 +82,8 @@ class Flow {
   State<Dim>& state() { return state_; }
   /// Volume of each species that has left through open sides (negative: come in), per radian in axisymmetric flows.
   const std::vector<double>& escaped() const { return escaped_; }
+  /// Volume of each species in the domain, plus what has escaped: conserved.
+  const std::vector<double>& volume() const { return volume_; }
   /// Fields that follow from the current state's fractions, valid after initialize() or advance().
   const CellField& total() const { return total_; }
   const CellField& density() const { return rho_; }
@@ -89,8 +110,18 @@ class Flow {
   /// \param escaped  as escaped()
   void resume(std::vector<double> escaped);
   /// Advances by dt. The state is left as it was when this throws.
-  /// \throws NumericalError when a solve fails or a value is not finite
+  /// \throws NumericalError when a solve fails, a value is not finite, or volume or energy are not kept
   StepReport advance(double dt);
+  /// After advance() has thrown: what the step had come to, and what it started from where it had not come to anything.
+  const State<Dim>& failed_attempt() const { return next_; }
+  /// Lets the phases of the steps to come be watched, and their results be changed: for looking into a step, and for
+  /// tests that spoil one.
+  void watch(PhaseWatcher<Dim> watcher) { watcher_ = std::move(watcher); }
+  /// Hands over everything that a step starts from, besides domain and parameters: the state, what has escaped, and
+  /// what earlier steps left for solves to start from. A flow that takes it from an archive, in place of initialize(),
+  /// goes on to the same bits. Work arrays that outlive a step and matter to the next one belong here. \throws
+  /// FileError where the archive's values are those of another grid or other species
+  void exchange(Archive& archive);
 
  private:
   /// Ghost cells, total(), density() and liquid() of the current state.
@@ -102,13 +133,15 @@ class Flow {
   void project(double dt, StepReport& report);
   /// The step itself: writes next_, then makes it the state.
   StepReport step(double dt);
-  /// Forgets what a failed step left in work arrays that outlive it.
-  void forget_failed_step();
+  /// Completes failed_attempt(), and clears or restores the work arrays that outlive a step.
+  void leave_failed_step(double dt);
 
   Domain<Dim> domain_;
   FlowParameters<Dim> parameters_;
   State<Dim> state_, next_;
   std::vector<double> escaped_;
+  std::vector<double> volume_;
+  double energy_scale_ = 0;  ///< the largest energy so far
   CellField total_, rho_;
   CellMask liquid_;
   CellField next_total_, next_rho_;
@@ -122,6 +155,11 @@ class Flow {
   GasLabels gas_labels_;
   CellField gas_pressure_;    ///< of gas cells
   NodeField outer_pressure_;  ///< of the gas around each node
+  /// Stresses of Bingham's law at the start of a step, for when it fails: they belong to the results.
+  Field<Node, PointStresses<Dim>> multiplier_before_;
+  double penalty_before_ = 0;
+  int parts_done_ = 0;  ///< of the step in progress, see StepInProgress
+  PhaseWatcher<Dim> watcher_;
 };
 
 extern template class Flow<2>;

@@ -18,4 +18,11 @@ struct SolverSettings {
   int viscous_max_iterations = 100;
 };
 
+/// When a step counts as failed although all its solves converged, and how often a failed one is tried again.
+struct GuardSettings {
+  int halvings = 8;            ///< of the time step
+  double volume_error = 1e-9;  ///< change of a species' volume in a step, relative to that of all
+  double energy_rise = 1e-6;   ///< of kinetic energy in redistribution or projection, see StepReport::energy_scale
+};
+
 }  // namespace quicksand

@@ -81,6 +81,12 @@ class RunTest(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn(f"ran: run my.yaml --overwrite --output {directory}", done.stdout)
 
+    def test_goes_on_from_a_checkpoint(self):
+        self.result("interrupted")
+        (self.folder / "results/case/checkpoint_00000007.h5").write_text("", encoding="utf-8")
+        self.assertIn("ran: run my.yaml --resume --threads 2", self.run_case("--threads", "2").stdout)
+        self.assertIn("ran: run my.yaml --overwrite", self.run_case("--overwrite").stdout)
+
     def test_leaves_other_folders_to_the_program(self):
         (self.folder / "results/case").mkdir(parents=True)
         (self.folder / "results/case/case.yaml").write_text("title: mine\n", encoding="utf-8")

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/atomic_file.hpp"
 #include "core/errors.hpp"
 #include "core/hdf5_file.hpp"
 #include "core/snapshot.hpp"
@@ -199,7 +200,10 @@ TEST(Snapshot, TakesOwnedCellsInFileOrder) {
 
 TEST_F(XdmfTest, SeriesFollowsTheFieldFiles) {
   for (const int step : {20, 10}) write_fields(path(fields_file_name(step)), small_snapshot(step));
-  XdmfSeries series(folder_, 10);  // resumed at step 10: what the lost run wrote after it does not count
+  XdmfSeries(folder_).write();
+  EXPECT_NE(content(path("fields.xdmf")).find("fields_00000020.h5"), std::string::npos);
+  std::filesystem::remove(path(fields_file_name(20)));  // resumed at step 10
+  XdmfSeries series(folder_);
   ASSERT_EQ(series.entries().size(), 1U);
   write_fields(path(fields_file_name(30)), small_snapshot(30));
   series.add(path(fields_file_name(30)));

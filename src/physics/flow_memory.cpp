@@ -1,0 +1,55 @@
+/// \file
+/// What a flow hands over to another that goes on in its place.
+#include "core/archive.hpp"
+#include "physics/flow.hpp"
+
+namespace quicksand {
+
+namespace {
+
+template <int Dim>
+void carry(Archive& archive, State<Dim>& state) {
+  carry(archive, "flow/time", state.time);
+  carry(archive, "flow/step", state.step);
+  carry(archive, "flow/dt", state.dt);
+  carry(archive, "flow/fraction", state.phi);
+  carry(archive, "flow/velocity", state.u);
+  carry(archive, "flow/pressure", state.pressure);
+  carry(archive, "flow/acceleration", state.acceleration);
+}
+
+void carry(Archive& archive, GasState& gas) {
+  carry(archive, "gas/region", gas.region);
+  carry(archive, "gas/last_id", gas.last_id);
+  carry(archive, "gas/held_open", gas.held_open, &Cell::n);
+  carry(archive, "gas/bubble/id", gas.bubbles, &Bubble::id);
+  carry(archive, "gas/bubble/amount", gas.bubbles, &Bubble::amount);
+  carry(archive, "gas/bubble/exponent", gas.bubbles, &Bubble::exponent);
+  carry(archive, "gas/bubble/constant", gas.bubbles, &Bubble::constant);
+  carry(archive, "gas/bubble/volume", gas.bubbles, &Bubble::volume);
+  carry(archive, "gas/bubble/pressure", gas.bubbles, &Bubble::pressure);
+  carry(archive, "gas/bubble/mean_pressure", gas.bubbles, &Bubble::mean_pressure);
+  carry(archive, "gas/bubble/growth", gas.bubbles, &Bubble::growth);
+}
+
+}  // namespace
+
+template <int Dim>
+void Flow<Dim>::exchange(Archive& archive) {
+  carry(archive, state_);
+  carry(archive, state_.gas);
+  carry_numbers(archive, "flow/escaped", escaped_);
+  // Where the solves of a step start from.
+  carry(archive, "guess/mac_potential", mac_.potential);
+  carry(archive, "guess/redistribution", redistribution_.H_species);
+  carry(archive, "guess/plastic_stress", diffusion_.stress);
+  carry(archive, "guess/multiplier", diffusion_.multiplier);
+  carry(archive, "guess/penalty", diffusion_.penalty);
+  if (archive.loading()) resume(escaped_);
+  carry(archive, "flow/energy_scale", energy_scale_);  // of the whole run, which resume() begins anew
+}
+
+template void Flow<2>::exchange(Archive&);
+template void Flow<3>::exchange(Archive&);
+
+}  // namespace quicksand
