@@ -10,7 +10,7 @@ namespace quicksand {
 namespace {
 
 /// Momentum of less mass than this, relative to a full cell's, is what rounding left of a cell that emptied.
-constexpr double rounded_off = 1e-14;
+constexpr double rounded_off = 1e-16;
 
 /// Cells with less liquid move ballistically: no slopes, no acceleration in the predictor.
 constexpr double ballistic_fraction = 0.5;

@@ -11,6 +11,11 @@ namespace {
 /// puts on them.
 constexpr double uncut = 1e-14;
 
+/// Normals shorter than this part of that of a full cell beside an empty one belong to no surface: drops and wisps with
+/// next to nothing around them, and mixtures that vary smoothly. Their planes would lie anywhere, and hold a speck on
+/// the side of its cell that it flies away from, so that it never leaves. Uncut, they move with their cell's velocity.
+constexpr double faint = 0.05;
+
 /// Outward normal times cell width along each axis, from differences of the fraction averaged over the 3^Dim block with
 /// weights 1-2-1 across (Youngs 1984).
 template <int Dim>
@@ -49,7 +54,8 @@ void reconstruct_surface(const Grid<Dim>& grid, const CellField& total, Surface<
     const Vec<Dim> n = youngs_normal(grid, total, c);
     double norm = 0;
     for (int d = 0; d < Dim; ++d) norm += std::abs(n[d]);
-    if (norm < uncut) return;
+    constexpr double full_norm = Dim == 2 ? 2 : 8;
+    if (norm < faint * full_norm) return;
     Vec<Dim> m;
     double mirrored = 0;
     for (int d = 0; d < Dim; ++d) {

@@ -185,7 +185,8 @@ TEST(Periodic, VolumeAndMomentumAreConservedAcrossTheEnds) {
     }
     EXPECT_NEAR(diagnose(flow).volume[0], before.volume[0], 1e-14);
     EXPECT_NEAR(flow.escaped()[0], 0, 1e-15);
-    for (int d = 0; d < 2; ++d) EXPECT_NEAR(momentum(flow, d), momentum_before[d], 1e-13);
+    // Sixty redistributions of momentum, each solved to 1e-13.
+    for (int d = 0; d < 2; ++d) EXPECT_NEAR(momentum(flow, d), momentum_before[d], 60 * 1e-13);
   }
 }
 
