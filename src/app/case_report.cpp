@@ -155,7 +155,9 @@ double needed_memory(const CaseConfig& config) {
   for (const StageConfig& stage : config.stages) count(grid_of(config, stage));
   const double fields = base_fields + fields_per_axis * config.grid.dimension +
                         fields_per_species * static_cast<double>(config.species.size());
-  return fields * sizeof(double) * most_cells / 1e6;
+  // On its way from one grid to the next a flow is there twice.
+  const double flows = config.stages.empty() && !config.regrid ? 1 : 2;
+  return flows * fields * sizeof(double) * most_cells / 1e6;
 }
 
 double machine_memory() {

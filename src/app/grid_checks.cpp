@@ -40,6 +40,20 @@ void check_axis(const std::vector<AxisSegment>& segments, const std::string& pat
   }
 }
 
+/// Notes an axis of a stage that does not go where the case's does.
+void check_ends(const std::vector<AxisSegment>& axis, const std::vector<AxisSegment>& whole, const std::string& path,
+                Reading& reading) {
+  check_axis(axis, path, reading);
+  if (axis.empty() || whole.empty() || !reading.clean(path)) return;
+  const double low = whole.front().from.value_or(0);
+  const double high = whole.back().to;
+  const double slack = 1e-12 * (high - low);
+  if (std::abs(axis.front().from.value_or(0) - low) > slack || std::abs(axis.back().to - high) > slack) {
+    reading.problem(path, "must go from " + shortest(low) + " to " + shortest(high) + " as the case's grid does, not " +
+                              "from " + shortest(axis.front().from.value_or(0)) + " to " + shortest(axis.back().to));
+  }
+}
+
 }  // namespace
 
 void check_grid(const GridConfig& grid, Reading& reading) {
@@ -63,25 +77,13 @@ void check_grid(const GridConfig& grid, Reading& reading) {
   if (cells > most_cells) reading.problem("grid", "has " + shortest(cells) + " cells; at most " + shortest(most_cells));
 }
 
-namespace {
-
-/// Notes an axis of a stage that does not go where the case's does.
-void check_ends(const std::vector<AxisSegment>& axis, const std::vector<AxisSegment>& whole, const std::string& path,
-                Reading& reading) {
-  check_axis(axis, path, reading);
-  if (axis.empty() || whole.empty() || !reading.clean(path)) return;
-  const double low = whole.front().from.value_or(0);
-  const double high = whole.back().to;
-  const double slack = 1e-12 * (high - low);
-  if (std::abs(axis.front().from.value_or(0) - low) > slack || std::abs(axis.back().to - high) > slack) {
-    reading.problem(path, "must go from " + shortest(low) + " to " + shortest(high) + " as the case's grid does, not " +
-                              "from " + shortest(axis.front().from.value_or(0)) + " to " + shortest(axis.back().to));
-  }
-}
-
-}  // namespace
-
 void check_stages(const CaseConfig& config, Reading& reading) {
+  const Boundaries& b = config.boundaries;
+  for (const auto* side : {&b.x_min, &b.y_min, &b.z_min}) {
+    if (config.regrid && *side && (*side)->kind == SideKind::periodic) {
+      reading.problem("regrid", "does not go with periodic sides");
+    }
+  }
   if (!reading.clean("grid")) return;
   for (std::size_t i = 0; i < config.stages.size(); ++i) {
     const StageConfig& stage = config.stages[i];

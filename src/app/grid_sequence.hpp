@@ -14,9 +14,10 @@ struct Region {
   Vec<Dim> low, high;
 };
 
-/// The grids of a case in turn: those of its stages, then its own. With `regrid` each of them is refined around the
-/// bubbles of the start while they are too small for it: a block of fine cells reaches some radii beyond them, and when
-/// they have grown close to its edge a new block with wider cells takes its place, up to the grid as it was given.
+/// The grids of a case in turn: those of its stages, then its own. With `regrid` they are refined around the
+/// bubbles of the start until these have grown large enough for one of them (and not again when they collapse): a block
+/// of fine cells reaches some radii beyond them, and when they have grown close to its edge a new block with wider
+/// cells takes its place, up to the grid as it was given.
 template <int Dim>
 class GridSequence {
  public:

@@ -114,12 +114,15 @@ std::filesystem::path ResultWriter<Dim>::write_fields(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-std::pair<std::filesystem::path, std::filesystem::path> ResultWriter<Dim>::write_failed_step(const Flow<Dim>& flow) {
-  const State<Dim>& attempt = flow.failed_attempt();
-  const auto file = [&](const State<Dim>& state) { return folder_ / ("failed_" + fields_file_name(state.step)); };
-  quicksand::write_fields(file(flow.state()), snapshot(flow));
-  quicksand::write_fields(file(attempt), snapshot(flow, attempt));
-  return {file(flow.state()), file(attempt)};
+std::vector<std::filesystem::path> ResultWriter<Dim>::write_failed_step(const Flow<Dim>& flow) {
+  std::vector<std::filesystem::path> files;
+  const auto write = [&](const State<Dim>& state, const FieldSnapshot& fields) {
+    files.push_back(folder_ / ("failed_" + fields_file_name(state.step)));
+    quicksand::write_fields(files.back(), fields);
+  };
+  write(flow.state(), snapshot(flow));
+  if (const State<Dim>* attempt = flow.failed_attempt()) write(*attempt, snapshot(flow, *attempt));
+  return files;
 }
 
 template <int Dim>

@@ -28,8 +28,9 @@ class ResultWriter {
   std::filesystem::path write_fields(const Flow<Dim>& flow);
   /// The crater of the current state, as it belongs to fields. \throws FileError
   void append_crater(const Flow<Dim>& flow);
-  /// After a step has failed: the state before it, and what it had come to, under names of their own. \throws FileError
-  std::pair<std::filesystem::path, std::filesystem::path> write_failed_step(const Flow<Dim>& flow);
+  /// When a run can't go on: its state and, if a step has failed, what that had come to, under names of their own.
+  /// \throws FileError
+  std::vector<std::filesystem::path> write_failed_step(const Flow<Dim>& flow);
   /// One line of `history.csv`, those of `bubbles.csv` and `events.csv`, and the crater when it is due.
   /// \throws FileError
   void append_history(const Flow<Dim>& flow, const Diagnostics& diagnostics, const StepReport& report);

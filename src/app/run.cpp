@@ -95,6 +95,10 @@ void change_grid(Flow<Dim>& flow, Run<Dim>& run) {
   flow = remap(flow, std::move(*domain), report);
   run.remap_events = report.gas;
   begin_grid(flow, run);
+  if (report.kinetic_energy < report.kinetic_energy_before) {
+    run.progress.say("the change of grid kept " + number_text(report.kinetic_energy / report.kinetic_energy_before) +
+                     " of the kinetic energy");
+  }
 }
 
 template <int Dim>
@@ -142,10 +146,11 @@ bool march(Run<Dim>& run, const ResumePoint* resume) {
       if (checkpoints.due(flow.state().time)) write_checkpoint(flow, run, fields_due);
     }
   } catch (const NumericalError& error) {
-    const auto [before, after] = run.writer.write_failed_step(flow);
+    const std::vector<std::filesystem::path> files = run.writer.write_failed_step(flow);
     throw NumericalError("step " + std::to_string(flow.state().step + 1) + " at time " +
                          number_text(flow.state().time) + ": " + error.what() + "; the state before it is in " +
-                         before.string() + ", what it came to in " + after.string());
+                         files.front().string() +
+                         (files.size() > 1 ? ", what it came to in " + files.back().string() : ""));
   }
   const bool over = is_over(flow, run);
   // Fields of an interruption go when the run is resumed; tables may hold nothing that does not belong to the results.

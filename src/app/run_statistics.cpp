@@ -48,7 +48,8 @@ void RunStatistics::add(const StepReport& report, const std::vector<double>& vol
   OnGrid& grid = grids_.back();
   ++grid.steps;
   cell_steps_ += static_cast<double>(grid.cells);
-  const double whole = std::accumulate(initial_volume_.begin(), initial_volume_.end(), 0.0);
+  const double start = std::accumulate(initial_volume_.begin(), initial_volume_.end(), 0.0);
+  const double whole = std::max(start, report.liquid_volume);
   for (std::size_t i = 0; i < volume.size(); ++i) {
     volume_error_[i] = std::max(volume_error_[i], std::abs(volume[i] - initial_volume_[i]) / whole);
   }

@@ -26,7 +26,7 @@ constexpr double time_slack = 1e-12;
 bool SteadyState::reached(const StepReport& report, double time) {
   largest_norm_ = std::max(largest_norm_, report.momentum_norm);
   unsteadiness_ = largest_norm_ > 0 ? time * report.momentum_change / largest_norm_ : 0.0;
-  return tolerance_ && unsteadiness_ <= *tolerance_;
+  return within_tolerance();
 }
 
 void SteadyState::exchange(Archive& archive) {

@@ -19,6 +19,8 @@ class SteadyState {
   /// time ||du/dt|| / max ||u|| of the last step; 0 for a flow that has not moved at all.
   double unsteadiness() const { return unsteadiness_; }
   bool wanted() const { return tolerance_.has_value(); }
+  /// Whether the last step was steady enough.
+  bool within_tolerance() const { return tolerance_ && unsteadiness_ <= *tolerance_; }
   /// Hands over what it has seen.
   void exchange(Archive& archive);
 

@@ -15,13 +15,15 @@ constexpr double face_slack = 1e-12;
 
 }  // namespace
 
-AxisOverlap::AxisOverlap(const std::vector<double>& source, const std::vector<double>& target, bool radial) {
+AxisOverlap::AxisOverlap(const std::vector<double>& source, std::vector<double> target, bool radial) {
   const double slack = face_slack * (source.back() - source.front());
   if (std::abs(source.front() - target.front()) > slack || std::abs(source.back() - target.back()) > slack) {
     throw InputError("the grids do not fill the same domain: one axis goes from " + number_text(source.front()) +
                      " to " + number_text(source.back()) + ", the other from " + number_text(target.front()) + " to " +
                      number_text(target.back()));
   }
+  target.front() = source.front();
+  target.back() = source.back();
   first_of_source_.push_back(0);
   first_of_target_.push_back(0);
   std::size_t i = 0;

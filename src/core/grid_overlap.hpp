@@ -26,7 +26,7 @@ class AxisOverlap {
   /// \param source, target  face coordinates; faces closer than round-off are one
   /// \param radial          whether the weight is the coordinate itself
   /// \throws InputError where the ends of the axes differ
-  AxisOverlap(const std::vector<double>& source, const std::vector<double>& target, bool radial);
+  AxisOverlap(const std::vector<double>& source, std::vector<double> target, bool radial);
 
   std::span<const AxisPart> of_source(int i) const { return range(first_of_source_, i); }
   std::span<const AxisPart> of_target(int i) const { return range(first_of_target_, i); }

@@ -148,6 +148,13 @@ void Flow<Dim>::resume(std::vector<double> escaped) {
 }
 
 template <int Dim>
+void Flow<Dim>::resume_in_place_of(const Flow& other) {
+  resume(other.escaped_);
+  energy_scale_ = std::max(energy_scale_, other.energy_scale_);
+  watcher_ = other.watcher_;
+}
+
+template <int Dim>
 StepReport Flow<Dim>::advance(double dt) {
   try {
     return step(dt);
@@ -168,14 +175,19 @@ void Flow<Dim>::leave_failed_step(double dt) {
   next_.time = state_.time + dt;
   next_.step = state_.step + 1;
   next_.dt = dt;
+  attempt_failed_ = true;
   // First guesses of a failed step may be what made it fail, or not finite.
   for (CellField& H_i : redistribution_.H_species) H_i.fill(0);
   mac_.potential.fill(0);
   diffusion_.stress.fill({});
   diffusion_.multiplier = multiplier_before_;
   diffusion_.penalty = penalty_before_;
+  diffusion_.release();
   mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
   find_elements(state_, total_, interfaces_, elements_);
+  if (has_bubbles(gas_parameters(), state_.gas)) {
+    label_gas(domain_, total_, parameters_.liquid_threshold, state_.gas.region, gas_labels_);
+  }
 }
 
 template <int Dim>
@@ -298,7 +310,12 @@ StepReport Flow<Dim>::step(double dt) {
   require_finite(grid, next_);
   const double largest_energy = std::max({energy_scale_, energy_tilde, energy});
   report.energy_scale = std::max(largest_energy, negligible_energy(grid, next_rho_, dt));
-  const StepBalance balance{volume_, volumes(grid, next_.phi, escaped), report.redistribution_energy_change,
+  report.liquid_volume =
+      sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return next_total_[c] * grid.volume(c); });
+  const StepBalance balance{volume_,
+                            volumes(grid, next_.phi, escaped),
+                            report.liquid_volume,
+                            report.redistribution_energy_change,
                             has_inflow(domain_.sides) ? 0.0 : report.projection_energy_change - report.gas_work,
                             report.energy_scale};
   check_balance(balance, par.species, par.guard);
@@ -310,6 +327,7 @@ StepReport Flow<Dim>::step(double dt) {
   escaped_ = escaped;
   volume_ = balance.volume_after;
   energy_scale_ = largest_energy;
+  attempt_failed_ = false;
   refresh();
   return report;
 }

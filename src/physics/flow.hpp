@@ -47,6 +47,7 @@ struct StepReport {
   DiffusionReport diffusion;
   SolveReport projection;
   double redistribution_energy_change = 0;  ///< kinetic energy after less before, (24)-(27) and (11) together
+  double liquid_volume = 0;                 ///< of all species in the domain, after the step
   double projection_energy_change = 0;      ///< kinetic energy of u^{n+1} less that of (52)
   double energy_scale = 0;                  ///< what changes of energy are compared with: the largest energy so far
   double momentum_norm = 0;                 ///< sqrt(sum V rho |u^{n+1}|^2)
@@ -109,11 +110,14 @@ class Flow {
   /// Makes the flow ready to go on from a state() that was set as a whole, velocities, pressure and gas included.
   /// \param escaped  as escaped()
   void resume(std::vector<double> escaped);
+  /// As resume(), in place of a flow on another grid: with its largest energy so far, its watcher and what has escaped.
+  void resume_in_place_of(const Flow& other);
   /// Advances by dt. The state is left as it was when this throws.
   /// \throws NumericalError when a solve fails, a value is not finite, or volume or energy are not kept
   StepReport advance(double dt);
-  /// After advance() has thrown: what the step had come to, and what it started from where it had not come to anything.
-  const State<Dim>& failed_attempt() const { return next_; }
+  /// Where the last step failed: what it had come to, and what it started from where it had not come to anything; else
+  /// null.
+  const State<Dim>* failed_attempt() const { return attempt_failed_ ? &next_ : nullptr; }
   /// Lets the phases of the steps to come be watched, and their results be changed: for looking into a step, and for
   /// tests that spoil one.
   void watch(PhaseWatcher<Dim> watcher) { watcher_ = std::move(watcher); }
@@ -160,6 +164,7 @@ class Flow {
   double penalty_before_ = 0;
   int parts_done_ = 0;  ///< of the step in progress, see StepInProgress
   PhaseWatcher<Dim> watcher_;
+  bool attempt_failed_ = false;
 };
 
 extern template class Flow<2>;

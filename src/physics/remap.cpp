@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "physics/energy.hpp"
 #include "physics/vector_remap.hpp"
@@ -54,20 +55,28 @@ void interpolate_nodes(const Grid<Dim>& from, const NodeField& q, const Grid<Dim
   });
 }
 
-/// In every cell the region that most of its gas came from.
+/// Less gas than this part of a cell is round-off.
+constexpr double no_gas = 1e-12;
+
+/// In every cell the region that most of its gas came from, 0 if there is none.
 template <int Dim>
 void map_regions(const GridOverlap<Dim>& overlap, const SpeciesParts<Dim>& parts, const CellLabels& region,
                  CellLabels& mapped) {
   const Grid<Dim>& grid = overlap.target();
   for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
-    double most = 0;
+    std::map<int, double> from;
     overlap.for_parts_of_target(i, [&](const GridPart<Dim>& part) {
+      if (region[part.source] == 0) return;
       double gas = part.volume;
       parts.for_volumes(part, [&](std::size_t, double volume) { gas -= volume; });
-      if (region[part.source] == 0 || gas <= most) return;
-      most = gas;
-      mapped[c] = region[part.source];
+      from[region[part.source]] += gas;
     });
+    double most = no_gas * grid.volume(c);
+    for (const auto& [id, gas] : from) {
+      if (gas <= most) continue;
+      most = gas;
+      mapped[c] = id;
+    }
   });
 }
 
@@ -123,7 +132,7 @@ Flow<Dim> remap(const Flow<Dim>& flow, Domain<Dim> domain, RemapReport& report) 
   state.time = old.time;
   state.step = old.step;
   state.dt = old.dt;
-  result.resume(flow.escaped());
+  result.resume_in_place_of(flow);
   return result;
 }
 

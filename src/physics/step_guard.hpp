@@ -15,6 +15,7 @@ namespace quicksand {
 struct StepBalance {
   std::vector<double> volume_before;
   std::vector<double> volume_after;
+  double liquid = 0;  ///< volume in the domain after the step
   double redistribution_rise = 0;
   double projection_rise = 0;  ///< beyond the work of gas and inflow
   double energy_scale = 0;     ///< what rises are compared with

@@ -29,9 +29,28 @@ double largest_factor(const Vec<Dim>& u, const Vec<Dim>& v, double limit) {
   return std::clamp((std::sqrt(b * b - a * c) - b) / a, 0.0, 1.0);
 }
 
-/// Exchanges stop here; energy that is left then is round-off.
-constexpr int most_exchanges = 1000;
+/// After so many exchanges the rest is taken from all deviations from the mean velocity alike.
+constexpr int most_exchanges = 200;
 constexpr double energy_slack = 1e-14;
+
+/// u = u_m + s (u - u_m), u_m the mean velocity by mass, with the s that gives the energy `limit`.
+template <int Dim>
+void shrink_to_mean(const Grid<Dim>& grid, const CellField& rho, double limit, CellVectors<Dim>& u) {
+  const auto over_mass = [&](auto&& f) {
+    return sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return rho[c] * grid.volume(c) * f(c); });
+  };
+  const double mass = over_mass([](Cell) { return 1.0; });
+  Vec<Dim> mean;
+  for (int d = 0; d < Dim; ++d) mean[d] = over_mass([&](Cell c) { return u[d][c]; }) / mass;
+  const double least = 0.5 * mass * norm_square(mean);
+  const double above = kinetic_energy(grid, rho, u) - least;
+  const double s = above > 0 ? std::sqrt(std::clamp((limit - least) / above, 0.0, 1.0)) : 1.0;
+  for (int d = 0; d < Dim; ++d) {
+    for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c) {
+      if (rho[c] > 0) u[d][c] = mean[d] + s * (u[d][c] - mean[d]);
+    });
+  }
+}
 
 }  // namespace
 
@@ -87,7 +106,10 @@ void MassMap<Dim>::map(const CellVectors<Dim>& q, CellVectors<Dim>& mapped) cons
   for_each_indexed<Cell>(from.layout(), from.cells(), [&](Cell c, const Index<Dim>& i) {
     double limit = norm_square(q.at(c));
     for (int d = 0; d < Dim; ++d) {
-      for (const Cell n : {c - from.step(d), c + from.step(d)}) {
+      for (const int side : {0, 1}) {
+        // Beyond the domain there may be what comes in, faster than anything inside.
+        if (from.at_boundary(d, side) && i[d] == (side == 0 ? 0 : from.owned_cells()[d] - 1)) continue;
+        const Cell n = side == 0 ? c - from.step(d) : c + from.step(d);
         if (rho_[n] > 0) limit = std::max(limit, norm_square(q.at(n)));
       }
     }
@@ -136,6 +158,7 @@ int lower_kinetic_energy(const Domain<Dim>& domain, const CellField& rho, double
     }
     ++exchanges;
   }
+  if (kinetic_energy(grid, rho, u) > limit * (1 + energy_slack)) shrink_to_mean(grid, rho, limit, u);
   return exchanges;
 }
 

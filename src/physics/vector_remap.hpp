@@ -40,7 +40,8 @@ class MassMap {
 /// Exchanges momentum between neighbours, mass-weighted and without raising any magnitude, until the kinetic energy is
 /// at most `limit`: the vectors of refined cells vary within what was one cell, and the mean of their squares exceeds
 /// the square of their mean by as much.
-/// \param u  owned cells; any energy that uniform motion has can't be taken away
+/// What is too much after many exchanges is taken from all deviations from the mean velocity.
+/// \param u  owned cells
 /// \returns number of exchanges
 template <int Dim>
 int lower_kinetic_energy(const Domain<Dim>& domain, const CellField& rho, double limit, CellVectors<Dim>& u);
