@@ -21,8 +21,10 @@ struct PlacedCharge {
 /// d the depth below the surface at which the liquid right above the charge ends, rho the density of the species at
 /// that surface and g gravity along -z: as the report does for a charge in sand under water, what lies above the charge
 /// counts as the topmost liquid. Where the liquid reaches an open top with liquid outside, P_A is the pressure of that
-/// side. \pre the grid, species and fills of the case are in order \throws InputError if the middle is not in liquid,
-/// or if explosion_bubble() throws
+/// side.
+///
+/// \pre the grid, species and fills of the case are in order
+/// \throws InputError if the middle is not in liquid, or if explosion_bubble() throws
 PlacedCharge place_charge(const CaseConfig& config, const InitialCharge& charge);
 
 /// `bubbles`, followed by the first bubble of each charge.

@@ -104,8 +104,9 @@ class Flow {
   double rigid_viscosity() const { return diffusion_.penalty; }
 
   /// Makes the flow ready to advance after fractions and velocities of state() were set: everything that follows from
-  /// the fractions, and the pressure and acceleration under gravity. \throws NumericalError when the pressure solve
-  /// fails
+  /// the fractions, and the pressure and acceleration under gravity.
+  ///
+  /// \throws NumericalError when the pressure solve fails
   void initialize();
   /// Makes the flow ready to go on from a state() that was set as a whole, velocities, pressure and gas included.
   /// \param escaped  as escaped()
@@ -123,8 +124,9 @@ class Flow {
   void watch(PhaseWatcher<Dim> watcher) { watcher_ = std::move(watcher); }
   /// Hands over everything that a step starts from, besides domain and parameters: the state, what has escaped, and
   /// what earlier steps left for solves to start from. A flow that takes it from an archive, in place of initialize(),
-  /// goes on to the same bits. Work arrays that outlive a step and matter to the next one belong here. \throws
-  /// FileError where the archive's values are those of another grid or other species
+  /// goes on to the same bits. Work arrays that outlive a step and matter to the next one belong here.
+  ///
+  /// \throws FileError where the archive's values are those of another grid or other species
   void exchange(Archive& archive);
 
  private:

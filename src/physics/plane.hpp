@@ -45,8 +45,11 @@ double cut_fraction(const Vec<Dim>& m, double alpha) {
   return cube_fraction(m[0] / norm, m[1] / norm, Dim == 3 ? m[Dim - 1] / norm : 0.0, alpha / norm);
 }
 
-/// Where an increasing function passes zero, to round-off, by bracketed secant steps. \param error  the function
-/// \param low, high  bracket, with the function's values there \param start  first guess
+/// Where an increasing function passes zero, to round-off, by bracketed secant steps.
+///
+/// \param error      the function
+/// \param low, high  bracket, with the function's values there
+/// \param start      first guess
 template <class Error>
 double rising_root(Error&& error, double low, double high, double low_error, double high_error, double start) {
   double x = start;

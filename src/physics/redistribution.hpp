@@ -39,9 +39,11 @@ std::vector<ObstacleReport> redistribute_volume(const Domain<Dim>& domain, const
 /// Redistributed velocity u-bar of (11): rho^{n+1} u-bar = rho~ u~ + lap(H u-bar).
 ///
 /// With y = H u-bar on {H > 0} the system (V rho / H + A) y = V rho~ u~ is symmetric positive definite; elsewhere u-bar
-/// is explicit. For the radial component A is that of the vector Laplacian (V / r^2 more). \param momentum_tilde  rho~
-/// u~, owned cells \param rho             rho^{n+1} \param u_bar           on return u-bar; 0 in cells below
-/// least_density
+/// is explicit. For the radial component A is that of the vector Laplacian (V / r^2 more).
+///
+/// \param momentum_tilde  rho~ u~, owned cells
+/// \param rho             rho^{n+1}
+/// \param u_bar           on return u-bar; 0 in cells below least_density
 template <int Dim>
 SolveReport redistribute_momentum(const Domain<Dim>& domain, const CellVectors<Dim>& momentum_tilde,
                                   const CellField& rho, const SolveOptions& options, RedistributionWork<Dim>& work,

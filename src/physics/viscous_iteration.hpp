@@ -44,9 +44,10 @@ template <int Dim>
 ViscousProgress progress_at(const ViscousProblem<Dim>& p, const CellVectors<Dim>& u);
 
 /// For linear laws: conjugate gradients behind the diagonal, without a matrix. Quick where viscosity is not stiff, that
-/// is where it couples cells little more strongly than inertia holds them. \param start  norm of the gradient at u,
-/// which is in work.gradient \returns the norm reached; nothing where viscosity is stiff or the iteration does not
-/// converge, u as it was
+/// is where it couples cells little more strongly than inertia holds them.
+///
+/// \param start  norm of the gradient at u, which is in work.gradient
+/// \returns the norm reached; nothing where viscosity is stiff or the iteration does not converge, u as it was
 template <int Dim>
 std::optional<double> solve_linear_stress(const ViscousProblem<Dim>& p, double start, CellVectors<Dim>& u,
                                           DiffusionReport& report);

@@ -12,8 +12,6 @@ PROGRAM = """#!/usr/bin/python3
 import pathlib, sys
 here = pathlib.Path(__file__).parent
 words = sys.argv[1:]
-if words == ["--help"]:
-    sys.exit(print("options: --resume" if (here / "resumes").exists() else "options"))
 settings = dict(word.split("=", 1) for flag, word in zip(words, words[1:]) if flag == "--set")
 settings.pop("output.directory", None)
 case = "".join(f"{key}: {value}\\n" for key, value in settings.items()) + pathlib.Path(words[1]).read_text()
@@ -86,12 +84,23 @@ class SweepTest(unittest.TestCase):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("h = bad: failed with code 3", done.stdout)
         self.runs()
+        self.sweep("a.h=1,bad")
+        again = self.runs()
+        self.assertEqual(len(again), 1)
+        self.assertIn("--overwrite", again[0])
+
+    def test_runs_that_left_a_checkpoint_are_resumed(self):
+        self.sweep("a.h=1,bad")
+        self.runs()
         (self.out / "h=bad" / "checkpoint_00000001.h5").touch()
         self.sweep("a.h=1,bad")
+        again = self.runs()
+        self.assertEqual(len(again), 1)
+        self.assertIn("--resume", again[0])
+        self.assertNotIn("--overwrite", again[0])
+        self.case.write_text("title: other\n", encoding="utf-8")
+        self.sweep("a.h=bad")
         self.assertIn("--overwrite", self.runs()[0])
-        (self.folder / "resumes").touch()
-        self.sweep("a.h=1,bad")
-        self.assertIn("--resume", self.runs()[0])
 
     def test_says_what_is_wrong(self):
         for over, words in ((["a.h"], "is not KEY.PATH=VALUE"), (["a.h=1,1"], "names a value twice"), (["a.h=1,"], "is not"),
