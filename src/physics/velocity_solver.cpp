@@ -48,8 +48,8 @@ struct VelocitySolver<Dim>::Factors {
   /// Returns false when the solution is not finite.
   bool solve(const CellVectors<Dim>& b, CellVectors<Dim>& x) {
     if (!usable) return false;
-    packed.resize(static_cast<std::size_t>(Dim * order.size()));
-    const auto at = [&](int n, int a) { return static_cast<std::size_t>(Dim * n + a); };
+    packed.resize(Dim * static_cast<std::size_t>(order.size()));
+    const auto at = [&](int n, int a) { return Dim * static_cast<std::size_t>(n) + static_cast<std::size_t>(a); };
     order.template for_each<Cell>([&](Cell c, const Index<Dim>&, int n) {
       for (int a = 0; a < Dim; ++a) packed[at(n, a)] = b[a][c];
     });

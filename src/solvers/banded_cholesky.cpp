@@ -57,7 +57,7 @@ bool BandedCholesky::factorize() {
 }
 
 void BandedCholesky::solve(std::vector<double>& x) const {
-  x.resize(static_cast<std::size_t>(size_ + bandwidth_));
+  x.resize(static_cast<std::size_t>(size_) + static_cast<std::size_t>(bandwidth_));
   for (int j = 0; j < size_; ++j) {
     const double* const column = &values_[static_cast<std::size_t>(j) * stride_];
     double* const from = &x[static_cast<std::size_t>(j)];
