@@ -116,7 +116,7 @@ Flow<Dim> remap(const Flow<Dim>& flow, Domain<Dim> domain, RemapReport& report) 
   masses.map(old.u, state.u);
   masses.map(old.acceleration, state.acceleration);
   report.kinetic_energy_before = kinetic_energy(from, flow.density(), old.u);
-  report.exchanges = lower_kinetic_energy(target, rho, report.kinetic_energy_before, state.u);
+  lower_kinetic_energy(target, rho, report.kinetic_energy_before, state.u);
   report.kinetic_energy = kinetic_energy(target.grid, rho, state.u);
   interpolate_nodes(from, old.pressure, target.grid, state.pressure);
 

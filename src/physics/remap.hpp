@@ -9,7 +9,6 @@ namespace quicksand {
 struct RemapReport {
   double kinetic_energy_before = 0;
   double kinetic_energy = 0;  ///< after, never greater
-  int exchanges = 0;          ///< of lower_kinetic_energy()
   std::vector<GasEvent> gas;  ///< bubbles that became one, or opened, on the other grid
 };
 

@@ -133,11 +133,11 @@ void MassMap<Dim>::map(const CellVectors<Dim>& q, CellVectors<Dim>& mapped) cons
 }
 
 template <int Dim>
-int lower_kinetic_energy(const Domain<Dim>& domain, const CellField& rho, double limit, CellVectors<Dim>& u) {
+void lower_kinetic_energy(const Domain<Dim>& domain, const CellField& rho, double limit, CellVectors<Dim>& u) {
   const Grid<Dim>& grid = domain.grid;
   CellVectors<Dim> smoother(grid.layout());
-  int exchanges = 0;
-  while (exchanges < most_exchanges && kinetic_energy(grid, rho, u) > limit * (1 + energy_slack)) {
+  const auto too_much = [&] { return kinetic_energy(grid, rho, u) > limit * (1 + energy_slack); };
+  for (int exchange = 0; exchange < most_exchanges && too_much(); ++exchange) {
     for (int d = 0; d < Dim; ++d) wrap(grid.layout(), grid.cells(), u[d]);
     for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c) {
       const double mass = rho[c] * grid.volume(c);
@@ -156,15 +156,13 @@ int lower_kinetic_energy(const Domain<Dim>& domain, const CellField& rho, double
     for (int d = 0; d < Dim; ++d) {
       for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c) { u[d][c] = smoother[d][c]; });
     }
-    ++exchanges;
   }
-  if (kinetic_energy(grid, rho, u) > limit * (1 + energy_slack)) shrink_to_mean(grid, rho, limit, u);
-  return exchanges;
+  if (too_much()) shrink_to_mean(grid, rho, limit, u);
 }
 
 template class MassMap<2>;
 template class MassMap<3>;
-template int lower_kinetic_energy(const Domain<2>&, const CellField&, double, CellVectors<2>&);
-template int lower_kinetic_energy(const Domain<3>&, const CellField&, double, CellVectors<3>&);
+template void lower_kinetic_energy(const Domain<2>&, const CellField&, double, CellVectors<2>&);
+template void lower_kinetic_energy(const Domain<3>&, const CellField&, double, CellVectors<3>&);
 
 }  // namespace quicksand

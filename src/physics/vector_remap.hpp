@@ -42,9 +42,8 @@ class MassMap {
 /// the square of their mean by as much.
 /// What is too much after many exchanges is taken from all deviations from the mean velocity.
 /// \param u  owned cells
-/// \returns number of exchanges
 template <int Dim>
-int lower_kinetic_energy(const Domain<Dim>& domain, const CellField& rho, double limit, CellVectors<Dim>& u);
+void lower_kinetic_energy(const Domain<Dim>& domain, const CellField& rho, double limit, CellVectors<Dim>& u);
 
 extern template class MassMap<2>;
 extern template class MassMap<3>;
