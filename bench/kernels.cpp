@@ -40,7 +40,7 @@ struct Bed {
         mixture(domain, {testing::liquid_species(1, law)}),
         u(domain.layout()),
         acceleration(domain.layout()),
-        convection(domain.layout(), 1),
+        convection(domain.layout()),
         faces(domain.layout()) {
     testing::set_cells(domain.grid, mixture.phi[0], [&](const Vec<Dim>& x) {
       const double depth = (0.9 + 0.05 * x[0] - x[Dim - 1]) / domain.grid.smallest_width();

@@ -6,12 +6,14 @@
 
 #include "app/command_line.hpp"
 #include "core/errors.hpp"
+#include "core/heap.hpp"
 #include "core/threads.hpp"
 
 /// Runs the command line; the only place where failures become exit codes.
 int main(int argc, char** argv) {
   using namespace quicksand;
   start_with_patient_threads(argv);
+  keep_freed_memory();
   const auto fail = [](const char* message, int code) {
     std::cerr << message << '\n';
     return code;

@@ -78,7 +78,7 @@ void carry(Archive& archive, const std::string& name, Field<At, T>& field) {
     carry_numbers(archive, name, field.values());
   } else {
     static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(double) == 0);
-    std::vector<T>& values = field.values();
+    auto& values = field.values();
     std::vector<double> flat(values.size() * (sizeof(T) / sizeof(double)));
     if (!flat.empty()) std::memcpy(flat.data(), values.data(), values.size() * sizeof(T));
     carry_numbers(archive, name, flat);

@@ -3,30 +3,86 @@
 /// Scalar fields on the cells, faces and nodes of a grid.
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "core/index.hpp"
 #include "core/layout.hpp"
+#include "core/threads.hpp"
 
 namespace quicksand {
+
+namespace detail {
+
+/// Leaves new numbers unset: memory lies close to the processor that writes to it first, which is to be the one whose
+/// thread works on that part of a field.
+template <class T>
+struct UntouchedAllocator : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = UntouchedAllocator<U>;
+  };
+  template <class U>
+  void construct(U* place) {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <class U, class... Arguments>
+  void construct(U* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+  }
+};
+
+}  // namespace detail
 
 /// One value of type T per position of kind `At`, ghost layers included.
 template <class At, class T = double>
 class Field {
  public:
+  using Values = std::vector<T, detail::UntouchedAllocator<T>>;
+
   Field() = default;
   template <int Dim>
-  explicit Field(const Layout<Dim>& layout, T value = T{}) : values_(static_cast<std::size_t>(layout.size()), value) {}
+  explicit Field(const Layout<Dim>& layout, T value = T{}) : values_(static_cast<std::size_t>(layout.size())) {
+    fill(value);
+  }
+  Field(const Field& other) : values_(other.values_.size()) { copy(other); }
+  Field& operator=(const Field& other) {
+    values_.resize(other.values_.size());
+    copy(other);
+    return *this;
+  }
+  Field(Field&&) noexcept = default;
+  Field& operator=(Field&&) noexcept = default;
+  ~Field() = default;
 
   T& operator[](At at) { return values_[static_cast<std::size_t>(at.n)]; }
   const T& operator[](At at) const { return values_[static_cast<std::size_t>(at.n)]; }
 
-  void fill(T value) { std::fill(values_.begin(), values_.end(), value); }
+  void fill(T value) {
+    in_parts([&](std::ptrdiff_t first, std::ptrdiff_t last) {
+      std::fill(values_.begin() + first, values_.begin() + last, value);
+    });
+  }
   std::ptrdiff_t size() const { return static_cast<std::ptrdiff_t>(values_.size()); }
-  std::vector<T>& values() { return values_; }  ///< of all positions, for storing; of a fixed length
+  Values& values() { return values_; }  ///< of all positions, for storing; of a fixed length
 
  private:
-  std::vector<T> values_;
+  template <class Body>
+  void in_parts(Body&& body) {
+    constexpr std::ptrdiff_t smallest_shared = 1 << 16;  // starting threads costs more than to write fewer values
+    if (size() >= smallest_shared) {
+      share_among_threads(size(), body);
+    } else {
+      body(0, size());
+    }
+  }
+  void copy(const Field& other) {
+    in_parts([&](std::ptrdiff_t first, std::ptrdiff_t last) {
+      std::copy(other.values_.begin() + first, other.values_.begin() + last, values_.begin() + first);
+    });
+  }
+
+  Values values_;
 };
 
 using CellField = Field<Cell>;

@@ -1,14 +1,14 @@
 #pragma once
 /// \file
-/// Threaded loops over boxes of the index space: the only place with OpenMP pragmas.
+/// Threaded loops over boxes of the index space.
 ///
 /// Reductions add row by row and then the rows in order, so that a result does not depend on the number of threads.
 #include <algorithm>
-#include <type_traits>
 #include <vector>
 
 #include "core/index.hpp"
 #include "core/layout.hpp"
+#include "core/threads.hpp"
 
 namespace quicksand {
 
@@ -16,6 +16,19 @@ namespace detail {
 
 /// Loops over fewer points than this run on one thread: starting a team costs more than they do.
 inline constexpr std::ptrdiff_t smallest_threaded_loop = 8192;
+
+/// Calls body(r) for r in [0, count), in threads where there are `points` enough.
+template <class Body>
+void for_each_number(std::ptrdiff_t count, std::ptrdiff_t points, Body&& body) {
+  const auto run = [&body](std::ptrdiff_t first, std::ptrdiff_t last) {
+    for (std::ptrdiff_t r = first; r < last; ++r) body(r);
+  };
+  if (points >= smallest_threaded_loop) {
+    share_among_threads(count, run);
+  } else {
+    run(0, count);
+  }
+}
 
 }  // namespace detail
 
@@ -44,32 +57,73 @@ struct Rows {
     i[Dim - 1] += static_cast<int>(rest);
     return layout.flat(i);
   }
-  bool worth_threads() const { return count * length >= detail::smallest_threaded_loop; }
+  /// Calls body(flat number of the first point) for every row, in threads.
+  template <class Body>
+  void for_each(Body&& body) const {
+    detail::for_each_number(count, count * length, [&](std::ptrdiff_t r) { body(start(r)); });
+  }
 };
 
 /// Calls body(At) for every point of the box. The body writes only to its own point.
 template <class At, int Dim, class Body>
 void for_each(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
   const Rows<Dim> rows(layout, box);
-#pragma omp parallel for schedule(static) if (rows.worth_threads())
-  for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
-    const std::ptrdiff_t start = rows.start(r);
+  rows.for_each([&](std::ptrdiff_t start) {
 #pragma omp simd
     for (int i = 0; i < rows.length; ++i) body(At{start + i});
-  }
+  });
 }
 
 /// Calls body(At, Index) for every point of the box; for loops that need the multi-index (1-D metrics, shapes).
 template <class At, int Dim, class Body>
 void for_each_indexed(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
   const Rows<Dim> rows(layout, box);
-#pragma omp parallel for schedule(static) if (rows.worth_threads())
-  for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
-    const std::ptrdiff_t start = rows.start(r);
+  rows.for_each([&](std::ptrdiff_t start) {
     Index<Dim> index = layout.multi(start);
     for (int i = 0; i < rows.length; ++i, ++index[0]) body(At{start + i}, index);
-  }
+  });
 }
+
+namespace detail {
+
+/// The points along one axis of a box that belong to one of three colours: even ones, odd ones and, where the ends of
+/// an odd number of points meet, the last one by itself. No two of a colour are next to each other.
+struct ColouredAxis {
+  int first;
+  int count;
+
+  template <int Dim>
+  ColouredAxis(const Layout<Dim>& layout, const Box<Dim>& box, int d, int colour) {
+    const int apart = layout.wraps(box, d) ? box.extent(d) % 2 : 0;
+    first = colour < 2 ? box.lo[d] + colour : box.hi[d] - apart;
+    count = colour < 2 ? std::max(box.hi[d] - apart - first + 1, 0) / 2 : apart;
+  }
+};
+
+/// Calls body(Index) in threads for every point of a colour on the axes from `lowest` on, index[d] = box.lo[d] on those
+/// below; one call of body counts as `points` points.
+template <int lowest, int Dim, class Body>
+void for_each_of_colour(const Layout<Dim>& layout, const Box<Dim>& box, int pass, std::ptrdiff_t points, Body&& body) {
+  Index<Dim> first = box.lo;
+  Index<Dim> n;
+  std::ptrdiff_t count = 1;
+  for (int d = lowest, rest = pass; d < Dim; ++d, rest /= 3) {
+    const ColouredAxis axis(layout, box, d, rest % 3);
+    first[d] = axis.first;
+    n[d] = axis.count;
+    count *= n[d];
+  }
+  for_each_number(count, count * points, [&](std::ptrdiff_t r) {
+    Index<Dim> index = first;
+    for (int d = lowest; d < Dim; ++d) {
+      index[d] += 2 * static_cast<int>(r % n[d]);
+      r /= n[d];
+    }
+    body(index);
+  });
+}
+
+}  // namespace detail
 
 /// Like for_each_indexed, in passes such that a pass visits every second point along each axis: a body may also write
 /// to points that neighbours of the same pass do not touch (scatter from an element to its corners). The order of
@@ -78,29 +132,24 @@ template <class At, int Dim, class Body>
 void for_each_coloured(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
   constexpr int passes = Dim == 2 ? 9 : 27;
   for (int pass = 0; pass < passes; ++pass) {
-    Index<Dim> first = box.lo;
-    std::ptrdiff_t count = 1;
-    Index<Dim> n;
-    for (int d = 0, rest = pass; d < Dim; ++d, rest /= 3) {
-      // Even points, odd points and, where the ends of an odd number of points meet, the last one by itself.
-      const int colour = rest % 3;
-      const int apart = layout.wraps(box, d) ? box.extent(d) % 2 : 0;
-      first[d] = colour < 2 ? box.lo[d] + colour : box.hi[d] - apart;
-      n[d] = colour < 2 ? std::max(box.hi[d] - apart - first[d] + 1, 0) / 2 : apart;
-      if (d > 0) count *= n[d];
-    }
-    if (n[0] == 0) continue;
-#pragma omp parallel for schedule(static) if (count * n[0] * (1 << Dim) >= detail::smallest_threaded_loop)
-    for (std::ptrdiff_t r = 0; r < count; ++r) {
-      Index<Dim> index = first;
-      std::ptrdiff_t rest = r;
-      for (int d = 1; d < Dim; ++d) {
-        index[d] += 2 * static_cast<int>(rest % n[d]);
-        rest /= n[d];
-      }
+    const detail::ColouredAxis row(layout, box, 0, pass % 3);
+    if (row.count == 0) continue;
+    detail::for_each_of_colour<1>(layout, box, pass / 3, row.count * (1 << Dim), [&](Index<Dim> index) {
+      index[0] = row.first;
       const std::ptrdiff_t start = layout.flat(index);
-      for (int i = 0; i < n[0]; ++i, index[0] += 2) body(At{start + 2 * i}, index);
-    }
+      for (int i = 0; i < row.count; ++i, index[0] += 2) body(At{start + 2 * i}, index);
+    });
+  }
+}
+
+/// Calls body(Index) for the first point of every row (run along x) of the box, in passes such that a pass visits every
+/// second row along each other axis: a body may write to its own row and to rows next to it on one side.
+template <int Dim, class Body>
+void for_each_coloured_row(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
+  constexpr int passes = Dim == 2 ? 3 : 9;
+  if (box.empty()) return;
+  for (int pass = 0; pass < passes; ++pass) {
+    detail::for_each_of_colour<1>(layout, box, pass, box.extent(0) * (1 << Dim), body);
   }
 }
 
@@ -109,14 +158,13 @@ template <class At, int Dim, class F>
 double sum(const Layout<Dim>& layout, const Box<Dim>& box, F&& f) {
   const Rows<Dim> rows(layout, box);
   std::vector<double> partial(static_cast<std::size_t>(rows.count), 0.0);
-#pragma omp parallel for schedule(static) if (rows.worth_threads())
-  for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
+  detail::for_each_number(rows.count, rows.count * rows.length, [&](std::ptrdiff_t r) {
     const std::ptrdiff_t start = rows.start(r);
     double total = 0;
 #pragma omp simd reduction(+ : total)
     for (int i = 0; i < rows.length; ++i) total += f(At{start + i});
     partial[static_cast<std::size_t>(r)] = total;
-  }
+  });
   double total = 0;
   for (const double p : partial) total += p;
   return total;
@@ -126,14 +174,15 @@ double sum(const Layout<Dim>& layout, const Box<Dim>& box, F&& f) {
 template <class At, int Dim, class F>
 double maximum(const Layout<Dim>& layout, const Box<Dim>& box, double floor, F&& f) {
   const Rows<Dim> rows(layout, box);
-  double largest = floor;
-#pragma omp parallel for schedule(static) reduction(max : largest) if (rows.worth_threads())
-  for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
+  std::vector<double> partial(static_cast<std::size_t>(rows.count), floor);
+  detail::for_each_number(rows.count, rows.count * rows.length, [&](std::ptrdiff_t r) {
     const std::ptrdiff_t start = rows.start(r);
-    double row_largest = floor;
-    for (int i = 0; i < rows.length; ++i) row_largest = std::max(row_largest, f(At{start + i}));
-    largest = std::max(largest, row_largest);
-  }
+    double largest = floor;
+    for (int i = 0; i < rows.length; ++i) largest = std::max(largest, f(At{start + i}));
+    partial[static_cast<std::size_t>(r)] = largest;
+  });
+  double largest = floor;
+  for (const double p : partial) largest = std::max(largest, p);
   return largest;
 }
 

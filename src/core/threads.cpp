@@ -26,4 +26,14 @@ void set_threads(int count) {
 
 int thread_count() { return omp_get_max_threads(); }
 
+void detail::run_team(std::ptrdiff_t count, LoopPart part, const void* body) {
+  const int threads = thread_count();
+  if (threads == 1) {
+    part(body, 0, count);
+    return;
+  }
+#pragma omp parallel for schedule(static, 1) num_threads(threads)
+  for (int t = 0; t < threads; ++t) part(body, count * t / threads, count * (t + 1) / threads);
+}
+
 }  // namespace quicksand

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// How many threads the loops use.
+/// How many threads the loops use, and the one place where a team of them is started.
+#include <cstddef>
 
 namespace quicksand {
 
@@ -15,5 +16,23 @@ void start_with_patient_threads(char** arguments);
 void set_threads(int count);
 /// Number of threads of the loops to come.
 int thread_count();
+
+namespace detail {
+
+/// A part [first, last) of a loop, as a plain call: the loops' bodies need not know of OpenMP, nor be compiled twice.
+using LoopPart = void (*)(const void* body, std::ptrdiff_t first, std::ptrdiff_t last);
+void run_team(std::ptrdiff_t count, LoopPart part, const void* body);
+
+}  // namespace detail
+
+/// Calls body(first, last) on every thread, for equal parts of [0, count) in order. What a body throws ends the
+/// program.
+template <class Body>
+void share_among_threads(std::ptrdiff_t count, const Body& body) {
+  detail::run_team(
+      count,
+      [](const void* b, std::ptrdiff_t first, std::ptrdiff_t last) { (*static_cast<const Body*>(b))(first, last); },
+      &body);
+}
 
 }  // namespace quicksand

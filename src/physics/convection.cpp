@@ -81,11 +81,20 @@ void impose_inflow(const Domain<Dim>& domain, FaceScalars<Dim>& u_mac) {
   }
 }
 
+/// Volume per time that the cells below and above a face give, per species.
+template <int Dim>
+struct VolumeFluxes {
+  std::vector<FaceScalars<Dim>> low, high;
+
+  VolumeFluxes(const Layout<Dim>& layout, std::size_t n_species)
+      : low(n_species, FaceScalars<Dim>(layout)), high(n_species, FaceScalars<Dim>(layout)) {}
+};
+
 /// Volume fluxes of species i from either side: what region i fills of the swept slab, less what species 0 ... i-1 take
 /// of it. Where those were limited species i makes up for them, so that liquid stays full.
 template <int Dim>
 void store_volume_fluxes(const Domain<Dim>& domain, const ConvectionInput<Dim>& in,
-                         const FaceVelocities<Dim>& velocities, double dt, std::size_t i, ConvectionWork<Dim>& work) {
+                         const FaceVelocities<Dim>& velocities, double dt, std::size_t i, VolumeFluxes<Dim>& flux) {
   const std::size_t whole = in.phi.size() - 1;
   const auto swept = [&](Cell c, int d, int side, double velocity) {
     const auto part = [&](std::size_t k) {
@@ -104,21 +113,21 @@ void store_volume_fluxes(const Domain<Dim>& domain, const ConvectionInput<Dim>& 
       double from_low = up > 0 ? area * swept(low, d, 1, up) : 0.0;
       double from_high = down < 0 ? area * swept(high, d, -1, down) : 0.0;
       for (std::size_t j = 0; j < i; ++j) {
-        from_low -= work.flux_low[j][d][f];
-        from_high -= work.flux_high[j][d][f];
+        from_low -= flux.low[j][d][f];
+        from_high -= flux.high[j][d][f];
       }
-      work.flux_low[i][d][f] = std::max(from_low, 0.0);
-      work.flux_high[i][d][f] = std::min(from_high, 0.0);
+      flux.low[i][d][f] = std::max(from_low, 0.0);
+      flux.high[i][d][f] = std::min(from_high, 0.0);
     });
   }
 }
 
 /// Scales each cell's outflow of a species to at most what the cell holds.
 template <int Dim>
-void limit_outflow(const Domain<Dim>& domain, const CellField& phi, double dt, CellField& scale,
-                   FaceScalars<Dim>& flux_low, FaceScalars<Dim>& flux_high) {
+void limit_outflow(const Domain<Dim>& domain, const CellField& phi, double dt, FaceScalars<Dim>& flux_low,
+                   FaceScalars<Dim>& flux_high) {
   const Grid<Dim>& grid = domain.grid;
-  scale.fill(1);
+  CellField scale(domain.layout(), 1);
   for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
     double out = 0;
     for (int d = 0; d < Dim; ++d) out += flux_low[d][low_face(c + grid.step(d))] - flux_high[d][low_face(c)];
@@ -152,13 +161,6 @@ double outflow_through_sides(const Domain<Dim>& domain, const FaceScalars<Dim>& 
 }
 
 }  // namespace
-
-template <int Dim>
-ConvectionWork<Dim>::ConvectionWork(const Layout<Dim>& layout, std::size_t n_species)
-    : u_half(layout),
-      outflow(layout),
-      flux_low(n_species, FaceScalars<Dim>(layout)),
-      flux_high(n_species, FaceScalars<Dim>(layout)) {}
 
 template <int Dim>
 void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, double dt, ConvectionWork<Dim>& work,
@@ -217,14 +219,15 @@ void split_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in,
 
 template <int Dim>
 void convect(const Domain<Dim>& domain, const std::vector<Species>& species, const ConvectionInput<Dim>& in, double dt,
-             const FaceVelocities<Dim>& velocities, ConvectionWork<Dim>& work, Fractions& phi_tilde,
+             const FaceVelocities<Dim>& velocities, const ConvectionWork<Dim>& work, Fractions& phi_tilde,
              CellVectors<Dim>& momentum_tilde, std::vector<double>& escaped) {
   const Grid<Dim>& grid = domain.grid;
+  VolumeFluxes<Dim> flux(domain.layout(), species.size());
   for (std::size_t i = 0; i < species.size(); ++i) {
-    store_volume_fluxes(domain, in, velocities, dt, i, work);
-    FaceScalars<Dim>& low = work.flux_low[i];
-    FaceScalars<Dim>& high = work.flux_high[i];
-    limit_outflow(domain, in.phi[i], dt, work.outflow, low, high);
+    store_volume_fluxes(domain, in, velocities, dt, i, flux);
+    FaceScalars<Dim>& low = flux.low[i];
+    FaceScalars<Dim>& high = flux.high[i];
+    limit_outflow(domain, in.phi[i], dt, low, high);
     escaped[i] += outflow_through_sides(domain, low, high, dt);
     for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
       double gain = 0;
@@ -239,25 +242,26 @@ void convect(const Domain<Dim>& domain, const std::vector<Species>& species, con
 
   // Momentum goes with the mass that crosses a face, at the velocity of the side that gives it.
   const Reconstruction<Dim> reconstruction(grid, in.total);
-  const auto mass_flux = [&](const std::vector<FaceScalars<Dim>>& flux, int d, Face f) {
+  const auto mass_flux = [&](const std::vector<FaceScalars<Dim>>& volume, int d, Face f) {
     double mass = 0;
-    for (std::size_t i = 0; i < species.size(); ++i) mass += species[i].density * flux[i][d][f];
+    for (std::size_t i = 0; i < species.size(); ++i) mass += species[i].density * volume[i][d][f];
     return mass;
   };
+  FaceField momentum_flux(domain.layout());
   for (int e = 0; e < Dim; ++e) {
     const CellField& u = in.u[e];
     const CellField& u_half = work.u_half[e];
     for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) { momentum_tilde[e][c] = in.rho[c] * u[c]; });
     for (int d = 0; d < Dim; ++d) {
-      const auto momentum_flux = [&](Face f) {
+      for_each<Face>(domain.layout(), grid.faces(d), [&](Face f) {
         const Cell high = high_cell(f);
         const Cell low = high - grid.step(d);
-        return mass_flux(work.flux_low, d, f) * reconstruction.face_velocity(u_half, u, low, d, 1) +
-               mass_flux(work.flux_high, d, f) * reconstruction.face_velocity(u_half, u, high, d, -1);
-      };
+        momentum_flux[f] = mass_flux(flux.low, d, f) * reconstruction.face_velocity(u_half, u, low, d, 1) +
+                           mass_flux(flux.high, d, f) * reconstruction.face_velocity(u_half, u, high, d, -1);
+      });
       for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
         momentum_tilde[e][c] +=
-            dt * (momentum_flux(low_face(c)) - momentum_flux(low_face(c + grid.step(d)))) / grid.volume(c);
+            dt * (momentum_flux[low_face(c)] - momentum_flux[low_face(c + grid.step(d))]) / grid.volume(c);
       });
     }
     for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
@@ -273,13 +277,12 @@ void convect(const Domain<Dim>& domain, const std::vector<Species>& species, con
 }
 
 #define QUICKSAND_INSTANTIATE(Dim)                                                                                \
-  template struct ConvectionWork<Dim>;                                                                            \
   template void predict_velocities(const Domain<Dim>&, const ConvectionInput<Dim>&, double, ConvectionWork<Dim>&, \
                                    FaceVelocities<Dim>&);                                                         \
   template void split_velocities(const Domain<Dim>&, const ConvectionInput<Dim>&, const ConvectionWork<Dim>&,     \
                                  FaceVelocities<Dim>&);                                                           \
   template void convect(const Domain<Dim>&, const std::vector<Species>&, const ConvectionInput<Dim>&, double,     \
-                        const FaceVelocities<Dim>&, ConvectionWork<Dim>&, Fractions&, CellVectors<Dim>&,          \
+                        const FaceVelocities<Dim>&, const ConvectionWork<Dim>&, Fractions&, CellVectors<Dim>&,    \
                         std::vector<double>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)

@@ -39,11 +39,9 @@ struct FaceVelocities {
 /// Work arrays of the convection phase.
 template <int Dim>
 struct ConvectionWork {
-  CellVectors<Dim> u_half;
-  CellField outflow;
-  std::vector<FaceScalars<Dim>> flux_low, flux_high;  ///< per species: volume per time given by the low and high cell
+  CellVectors<Dim> u_half;  ///< cell velocities at half time
 
-  ConvectionWork(const Layout<Dim>& layout, std::size_t n_species);
+  explicit ConvectionWork(const Layout<Dim>& layout) : u_half(layout) {}
 };
 
 /// Normal face velocities at half time from both sides, upwinded into velocities.mac; also the half-time cell
@@ -61,7 +59,7 @@ void split_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in,
 /// Volume that leaves through open sides is added to `escaped`, per species.
 template <int Dim>
 void convect(const Domain<Dim>& domain, const std::vector<Species>& species, const ConvectionInput<Dim>& in, double dt,
-             const FaceVelocities<Dim>& velocities, ConvectionWork<Dim>& work, Fractions& phi_tilde,
+             const FaceVelocities<Dim>& velocities, const ConvectionWork<Dim>& work, Fractions& phi_tilde,
              CellVectors<Dim>& momentum_tilde, std::vector<double>& escaped);
 
 }  // namespace quicksand

@@ -109,6 +109,7 @@ void DiffusionWork<Dim>::acquire(const Layout<Dim>& layout) {
 
 template <int Dim>
 void DiffusionWork<Dim>::release() {
+  elements.release();
   for (NodeField* field : {&potential, &gap}) *field = {};
   for (CellVectors<Dim>* vectors : {&mass, &gradient, &trial_gradient, &update, &trial}) *vectors = {};
 }

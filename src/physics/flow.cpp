@@ -72,8 +72,6 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       next_liquid_(domain_.layout()),
       interfaces_(domain_.layout(), parameters_.species.size()),
       elements_(domain_.layout()),
-      momentum_tilde_(domain_.layout()),
-      u_bar_(domain_.layout()),
       u_hat_(domain_.layout()),
       lagged_(domain_.layout()),
       mac_(domain_.layout()),
@@ -117,7 +115,6 @@ void Flow<Dim>::initialize() {
   gas_pressure_on_nodes(domain_, gas_parameters(), state_.gas, liquid_, false, gas_pressure_, outer_pressure_);
   set_open_pressures(domain_, outer_pressure_);
   find_elements(state_, total_, interfaces_, elements_);
-  mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
   // The pressure that balances gravity as the velocities stand: what is at rest stays so from the first step on.
   const Grid<Dim>& grid = domain_.grid;
   const CellVectors<Dim> none(domain_.layout());
@@ -142,7 +139,6 @@ void Flow<Dim>::resume(std::vector<double> escaped) {
     label_gas(domain_, total_, parameters_.liquid_threshold, state_.gas.region, gas_labels_);
   }
   find_elements(state_, total_, interfaces_, elements_);
-  mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
   volume_ = volumes(domain_.grid, state_.phi, escaped_);
   energy_scale_ = energy_at_stake(domain_.grid, rho_, state_, parameters_.gravity);
 }
@@ -172,6 +168,7 @@ void Flow<Dim>::leave_failed_step(double dt) {
     next_.u = state_.u;
     next_.pressure = state_.pressure;
   }
+  next_.acceleration = state_.acceleration;
   next_.time = state_.time + dt;
   next_.step = state_.step + 1;
   next_.dt = dt;
@@ -183,7 +180,6 @@ void Flow<Dim>::leave_failed_step(double dt) {
   diffusion_.multiplier = multiplier_before_;
   diffusion_.penalty = penalty_before_;
   diffusion_.release();
-  mark_stress_elements(domain_, parameters_.species, state_.phi, total_, diffusion_.elements);
   find_elements(state_, total_, interfaces_, elements_);
   if (has_bubbles(gas_parameters(), state_.gas)) {
     label_gas(domain_, total_, parameters_.liquid_threshold, state_.gas.region, gas_labels_);
@@ -235,11 +231,14 @@ StepReport Flow<Dim>::step(double dt) {
   const Grid<Dim>& grid = domain_.grid;
   const FlowParameters<Dim>& par = parameters_;
   StepReport report;
+  // Both are done with before the fields that they stand in are needed.
+  CellVectors<Dim>& momentum_tilde = next_.u;
+  CellVectors<Dim>& u_bar = next_.acceleration;
   Stopwatch watch;
   const auto clock = [&](Phase phase, FaceVelocities<Dim>* velocities = nullptr) {
     report.seconds[static_cast<std::size_t>(phase)] += watch.lap();
     ++parts_done_;
-    if (watcher_) watcher_({parts_done_, velocities, momentum_tilde_, u_bar_, next_});
+    if (watcher_) watcher_({parts_done_, velocities, momentum_tilde, u_bar, next_});
   };
   std::vector<double> escaped = escaped_;
   parts_done_ = 0;
@@ -250,7 +249,7 @@ StepReport Flow<Dim>::step(double dt) {
   add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -1.0, lagged_);
   {
     const ConvectionInput<Dim> in{state_.phi, total_, rho_, state_.u, state_.acceleration, liquid_, interfaces_};
-    ConvectionWork<Dim> work(domain_.layout(), par.species.size());
+    ConvectionWork<Dim> work(domain_.layout());
     FaceVelocities<Dim> velocities(domain_.layout());
     predict_velocities(domain_, in, dt, work, velocities);
     clock(Phase::convection, &velocities);
@@ -259,10 +258,10 @@ StepReport Flow<Dim>::step(double dt) {
     clock(Phase::mac_projection, &velocities);
     require_finite(grid, velocities.mac);
     split_velocities(domain_, in, work, velocities);
-    convect(domain_, par.species, in, dt, velocities, work, next_.phi, momentum_tilde_, escaped);
+    convect(domain_, par.species, in, dt, velocities, work, next_.phi, momentum_tilde, escaped);
   }
   mix_density(grid, par.species, next_.phi, next_rho_);
-  const double energy_tilde = kinetic_energy_of_momentum(grid, next_rho_, momentum_tilde_);
+  const double energy_tilde = kinetic_energy_of_momentum(grid, next_rho_, momentum_tilde);
   clock(Phase::convection);
 
   report.obstacle = redistribute_volume(domain_, par.species, par.obstacle, redistribution_, next_.phi, escaped);
@@ -280,28 +279,28 @@ StepReport Flow<Dim>::step(double dt) {
   set_open_pressures(domain_, outer_pressure_);
   find_elements(next_, next_total_, interfaces_, elements_);
   clock(Phase::redistribute_volume);
-  report.momentum = redistribute_momentum(domain_, momentum_tilde_, next_rho_, par.momentum, redistribution_, u_bar_);
+  report.momentum = redistribute_momentum(domain_, momentum_tilde, next_rho_, par.momentum, redistribution_, u_bar);
   clock(Phase::redistribute_momentum);
-  report.redistribution_energy_change = kinetic_energy(grid, next_rho_, u_bar_) - energy_tilde;
+  report.redistribution_energy_change = kinetic_energy(grid, next_rho_, u_bar) - energy_tilde;
 
   next_.pressure = state_.pressure;
-  add_uniform(grid.layout(), grid.cells(), u_bar_, dt, par.gravity, u_hat_);
+  add_uniform(grid.layout(), grid.cells(), u_bar, dt, par.gravity, u_hat_);
   add_scaled(grid.layout(), grid.cells(), u_hat_, dt, lagged_, u_hat_);
   CellVectors<Dim>& u_star = next_.u;
   u_star = u_hat_;
   if (mark_stress_elements(domain_, par.species, next_.phi, next_total_, diffusion_.elements)) {
     // The stress of the last step is the best guess of this one's.
-    add_scaled(grid.layout(), grid.cells(), u_bar_, dt, state_.acceleration, u_star);
+    add_scaled(grid.layout(), grid.cells(), u_bar, dt, state_.acceleration, u_star);
     report.diffusion = diffuse(domain_, next_rho_, u_hat_, dt, par.diffusion, diffusion_, u_star);
-    diffusion_.release();
     if (!report.diffusion.converged) throw NumericalError("viscoplastic diffusion did not converge");
   }
+  diffusion_.release();
   clock(Phase::diffusion);
 
   add_scaled(grid.layout(), grid.cells(), u_star, -dt, lagged_, u_star);
   project(dt, report);
   clock(Phase::projection);
-  scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, u_bar_, next_.acceleration);
+  scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, u_bar, next_.acceleration);
   const double energy = kinetic_energy(grid, next_rho_, next_.u);
   report.momentum_norm = std::sqrt(2 * energy);
   scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, state_.u, u_hat_);

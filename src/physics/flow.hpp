@@ -95,9 +95,6 @@ class Flow {
   GasParameters gas_parameters() const {
     return {parameters_.ambient_pressure, parameters_.liquid_threshold, parameters_.trapped_gas};
   }
-  /// Dual mesh and the rheology of its elements in the current state.
-  const StressElements<Dim>& stress_elements() const { return diffusion_.elements; }
-
   /// Stresses of Bingham's law at the stress points in the last step, and the viscosity that stood for infinity; of
   /// size 0 when no species has that law.
   const Field<Node, PointStresses<Dim>>& rigid_stress() const { return diffusion_.multiplier; }
@@ -154,7 +151,7 @@ class Flow {
   CellMask next_liquid_;
   Interfaces<Dim> interfaces_;
   PressureElements<Dim> elements_;
-  CellVectors<Dim> momentum_tilde_, u_bar_, u_hat_, lagged_;
+  CellVectors<Dim> u_hat_, lagged_;
   MacProjectionWork<Dim> mac_;
   RedistributionWork<Dim> redistribution_;
   DiffusionWork<Dim> diffusion_;

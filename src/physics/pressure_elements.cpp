@@ -22,14 +22,14 @@ struct Interval {
   double high = 1;
 };
 
-/// Part of a cell's edge along d that a region fills; corner k is the edge's low end.
+/// Part of a cell's edge along d that a region with this plane fills; corner k is the edge's low end.
 template <int Dim>
-Interval filled_part(const Surface<Dim>& surface, Cell c, int k, int d) {
-  double depth = surface.offset[c];
+Interval filled_part(const CellPlane<Dim>& plane, int k, int d) {
+  double depth = plane.offset;
   for (int e = 0; e < Dim; ++e) {
-    if (e != d && Corners<Dim>::bit(k, e)) depth -= surface.normal[e][c];
+    if (e != d && Corners<Dim>::bit(k, e)) depth -= plane.normal[e];
   }
-  const double slope = surface.normal[d][c];
+  const double slope = plane.normal[d];
   Interval part;
   if (slope > 0) part.high = std::clamp(depth / slope, 0.0, 1.0);
   if (slope < 0) part.low = std::clamp(depth / slope, 0.0, 1.0);
@@ -47,7 +47,7 @@ void add_edge(const Interfaces<Dim>& interfaces, const std::vector<Species>& spe
   for (std::size_t s = 0; s < species.size(); ++s) {
     EdgeMass region;
     if (interfaces.surface[s].cuts(c)) {
-      const Interval part = filled_part(interfaces.surface[s], c, k, d);
+      const Interval part = filled_part(interfaces.surface[s].plane(c), k, d);
       region = {part.high - part.low, integral(part.high) - integral(part.low)};
     } else {
       const double filling = std::clamp(interfaces.region[s][c], 0.0, 1.0);

@@ -53,26 +53,32 @@ double least_given(const Domain<Dim>& domain, const NodeMask& free, const NodeFi
 /// What pressures at the corners of a cell do in it.
 template <int Dim>
 struct CellPressure {
+  double volume;
   MeanGradient<Dim> mean;                ///< levers and all
   double stiffness[1 << Dim][1 << Dim];  ///< integral of grad N_a . grad N_b, its part of mean gradients that of `mean`
-  double surplus[1 << Dim][1 << Dim];    ///< of the stiffness over volume * mean . mean
 
   CellPressure(const Grid<Dim>& grid, const Corners<Dim>& corners, const PressureElements<Dim>& elements, Cell c,
                const Index<Dim>& i)
-      : mean(elements.gradient(grid, corners, c, i)) {
+      : volume(grid.volume(c)), mean(elements.gradient(grid, corners, c, i)) {
+    for (int a = 0; a < Corners<Dim>::count; ++a) {
+      for (int b = 0; b <= a; ++b) stiffness[a][b] = stiffness[b][a] = quicksand::stiffness(grid, i, a, b);
+    }
+    if (!elements.cut[c]) return;
     const MeanGradient<Dim> even = even_gradient(grid, i);
-    const double volume = grid.volume(c);
     for (int a = 0; a < Corners<Dim>::count; ++a) {
       for (int b = 0; b < Corners<Dim>::count; ++b) {
-        surplus[a][b] = quicksand::stiffness(grid, i, a, b);
-        stiffness[a][b] = 0;
-        for (int d = 0; d < Dim; ++d) {
-          surplus[a][b] -= volume * even.at[a][d] * even.at[b][d];
-          stiffness[a][b] += volume * mean.at[a][d] * mean.at[b][d];
-        }
-        stiffness[a][b] += surplus[a][b];
+        stiffness[a][b] += volume * (product(mean, a, b) - product(even, a, b));
       }
     }
+  }
+  /// Part of the stiffness that is not of mean gradients.
+  double surplus(int a, int b) const { return stiffness[a][b] - volume * product(mean, a, b); }
+
+ private:
+  static double product(const MeanGradient<Dim>& g, int a, int b) {
+    double sum = 0;
+    for (int d = 0; d < Dim; ++d) sum += g.at[a][d] * g.at[b][d];
+    return sum;
   }
 };
 
@@ -114,7 +120,7 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
         if (a == b) matrix.diagonal[na] += k;
         if (a > b && free[nb]) matrix.lower[pairs.offset[a][b]][na] += k;
         if (!free[nb]) source -= k * increment[nb];
-        source += memory * scale * cell.surplus[a][b] * increment[nb];
+        if (memory > 0) source += memory * scale * cell.surplus(a, b) * increment[nb];
       }
       rhs[na] += source;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace quicksand {
 
@@ -10,29 +11,61 @@ namespace {
 /// In cells filled less than this the velocity is the quotient of two round-off errors.
 constexpr double smallest_filling = 1e-12;
 
-/// -div grad in finite volumes; `rule(d, s)` gives the ghost rule (its alpha) on side s of axis d.
-template <int Dim, class Rule>
-void assemble_laplacian(const Grid<Dim>& grid, Rule&& rule, StencilMatrix<Dim, Cell>& matrix) {
-  const Layout<Dim>& layout = grid.layout();
-  const auto coefficient = [&](int d, Face f) {
-    const Cell high = high_cell(f);
-    return grid.area(d, f) / (0.5 * (grid.width(d, high) + grid.width(d, high - grid.step(d))));
-  };
-  for_each_indexed<Cell>(layout, grid.cells(), [&](Cell c, const Index<Dim>& i) {
-    double diagonal = 0;
-    for (int d = 0; d < Dim; ++d) {
-      double below = coefficient(d, low_face(c));
-      double above = coefficient(d, low_face(c + grid.step(d)));
-      matrix.lower[static_cast<std::size_t>(d)][c] = i[d] == 0 && !layout.periodic(d) ? 0.0 : -below;
-      // ghost = alpha * mirror: the difference across the side is (1 - alpha) * mirror.
-      if (i[d] == 0 && grid.at_boundary(d, 0)) below *= 1 - rule(d, 0).alpha;
-      if (i[d] == grid.owned_cells()[d] - 1 && grid.at_boundary(d, 1)) above *= 1 - rule(d, 1).alpha;
-      diagonal += below + above;
-    }
-    matrix.diagonal[c] = diagonal;
-  });
-  matrix.wrap_couplings();
+/// Coupling of the two cells of a face in -div grad, finite volumes.
+template <int Dim>
+double coupling(const Grid<Dim>& grid, int d, Face f) {
+  const Cell high = high_cell(f);
+  return grid.area(d, f) / (0.5 * (grid.width(d, high) + grid.width(d, high - grid.step(d))));
 }
+
+/// Diagonal of -div grad; `rule(d, s)` gives the ghost rule (its alpha) on side s of axis d.
+template <int Dim, class Rule>
+double diagonal_entry(const Grid<Dim>& grid, Rule&& rule, Cell c, const Index<Dim>& i) {
+  double diagonal = 0;
+  for (int d = 0; d < Dim; ++d) {
+    double below = coupling(grid, d, low_face(c));
+    double above = coupling(grid, d, low_face(c + grid.step(d)));
+    // ghost = alpha * mirror: the difference across the side is (1 - alpha) * mirror.
+    if (i[d] == 0 && grid.at_boundary(d, 0)) below *= 1 - rule(d, 0).alpha;
+    if (i[d] == grid.owned_cells()[d] - 1 && grid.at_boundary(d, 1)) above *= 1 - rule(d, 1).alpha;
+    diagonal += below + above;
+  }
+  return diagonal;
+}
+
+/// Diagonal of the operator (11) for velocity component e: Laplacian of a vector's component.
+template <int Dim>
+void find_diagonal(const Domain<Dim>& domain, int e, CellField& diagonal) {
+  const Grid<Dim>& grid = domain.grid;
+  const auto rule = [&](int d, int s) {
+    // H vanishes on an open side and has no slope on an inflow side, whatever the velocity does there.
+    const Side& side = domain.sides.at(d, s);
+    return is_passable(side) ? potential_rule(side) : inviscid_velocity_rule(side, d == e);
+  };
+  const bool turns = e == 0 && grid.axisymmetric();
+  for_each_indexed<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+    diagonal[c] = diagonal_entry(grid, rule, c, i);
+    if (!turns) return;
+    const double r = grid.centre_position(0, i[0]);
+    diagonal[c] += grid.volume(c) / (r * r);
+  });
+}
+
+/// Gives a matrix another diagonal for a while.
+template <int Dim>
+class OtherDiagonal {
+ public:
+  explicit OtherDiagonal(StencilMatrix<Dim, Cell>& matrix) : matrix_(matrix), own_(matrix.layout) {
+    std::swap(matrix_.diagonal, own_);
+  }
+  ~OtherDiagonal() { std::swap(matrix_.diagonal, own_); }
+  OtherDiagonal(const OtherDiagonal&) = delete;
+  OtherDiagonal& operator=(const OtherDiagonal&) = delete;
+
+ private:
+  StencilMatrix<Dim, Cell>& matrix_;
+  CellField own_;
+};
 
 /// phi -= A H / V; returns the volume that leaves through open sides.
 template <int Dim>
@@ -82,31 +115,20 @@ double settle_negative(const Domain<Dim>& domain, CellField& phi) {
 template <int Dim>
 RedistributionWork<Dim>::RedistributionWork(const Domain<Dim>& domain, const std::vector<Species>& species)
     : laplacian(domain.layout(), Stencil::star),
-      diagonal(domain.layout()),
       H_species(species.size(), CellField(domain.layout())),
       H(domain.layout()) {
   least_density = std::numeric_limits<double>::infinity();
   for (const Species& s : species) least_density = std::min(least_density, smallest_filling * s.density);
   const Grid<Dim>& grid = domain.grid;
-  for (int e = 0; e < Dim; ++e) {
-    assemble_laplacian(
-        grid,
-        [&](int d, int s) {
-          // H vanishes on an open side and has no slope on an inflow side, whatever the velocity does there.
-          const Side& side = domain.sides.at(d, s);
-          return is_passable(side) ? potential_rule(side) : inviscid_velocity_rule(side, d == e);
-        },
-        laplacian);
-    diagonal[e] = laplacian.diagonal;
-    if (e == 0 && grid.axisymmetric()) {
-      for_each_indexed<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
-        const double r = grid.centre_position(0, i[0]);
-        diagonal[e][c] += grid.volume(c) / (r * r);
-      });
+  const auto rule = [&](int d, int s) { return potential_rule(domain.sides.at(d, s)); };
+  for_each_indexed<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+    laplacian.diagonal[c] = diagonal_entry(grid, rule, c, i);
+    for (int d = 0; d < Dim; ++d) {
+      const bool first = i[d] == 0 && !domain.layout().periodic(d);
+      laplacian.lower[static_cast<std::size_t>(d)][c] = first ? 0.0 : -coupling(grid, d, low_face(c));
     }
-  }
-  assemble_laplacian(
-      grid, [&](int d, int s) { return potential_rule(domain.sides.at(d, s)); }, laplacian);
+  });
+  laplacian.wrap_couplings();
 }
 
 template <int Dim>
@@ -141,41 +163,46 @@ SolveReport redistribute_momentum(const Domain<Dim>& domain, const CellVectors<D
                                   CellVectors<Dim>& u_bar) {
   const Grid<Dim>& grid = domain.grid;
   const Layout<Dim>& layout = domain.layout();
+  const auto set_velocity = [&](int e, Cell c, double momentum) {
+    u_bar[e][c] = rho[c] > work.least_density ? momentum / rho[c] : 0.0;
+  };
   CellField& H = work.H;
+  const Box<Dim> box = bounding_box<Cell>(layout, grid.cells(), [&](Cell c) { return H[c] > 0; });
+  if (box.empty()) {
+    for (int e = 0; e < Dim; ++e) {
+      for_each<Cell>(layout, grid.cells(), [&](Cell c) { set_velocity(e, c, momentum_tilde[e][c]); });
+    }
+    return {.converged = true};
+  }
   wrap(layout, grid.cells(), H);
-  StencilMatrix<Dim, Cell>& A = work.laplacian;  // with the diagonal of one component after the other
-  const CellField diagonal = A.diagonal;
+  StencilMatrix<Dim, Cell>& A = work.laplacian;
+  const OtherDiagonal<Dim> of_component(A);
   StencilMatrix<Dim, Cell> system(layout, Stencil::star);
+  system.box = box;
   CellField y(layout), rhs(layout);
-  system.box = bounding_box<Cell>(layout, grid.cells(), [&](Cell c) { return H[c] > 0; });
   SolveReport worst{.converged = true};
   for (int e = 0; e < Dim; ++e) {
-    A.diagonal = work.diagonal[e];
+    find_diagonal(domain, e, A.diagonal);
     y.fill(0);
-    if (!system.box.empty()) {
-      for_each<Cell>(layout, system.box, [&](Cell c) {
-        const bool in = H[c] > 0;
-        system.diagonal[c] = in ? grid.volume(c) * rho[c] / H[c] + A.diagonal[c] : 1.0;
-        for (int d = 0; d < Dim; ++d) {
-          const std::size_t k = static_cast<std::size_t>(d);
-          system.lower[k][c] = in && H[c - grid.step(d)] > 0 ? A.lower[k][c] : 0.0;
-        }
-        rhs[c] = in ? grid.volume(c) * momentum_tilde[e][c] : 0.0;
-        y[c] = in ? H[c] * momentum_tilde[e][c] / rho[c] : 0.0;
-      });
-      system.wrap_couplings();
-      const SolveReport report = solve(system, rhs, y, options);
-      require_converged(report, "momentum redistribution");
-      if (report.iterations > worst.iterations) worst = report;
-    }
+    for_each<Cell>(layout, box, [&](Cell c) {
+      const bool in = H[c] > 0;
+      system.diagonal[c] = in ? grid.volume(c) * rho[c] / H[c] + A.diagonal[c] : 1.0;
+      for (int d = 0; d < Dim; ++d) {
+        const std::size_t k = static_cast<std::size_t>(d);
+        system.lower[k][c] = in && H[c - grid.step(d)] > 0 ? A.lower[k][c] : 0.0;
+      }
+      rhs[c] = in ? grid.volume(c) * momentum_tilde[e][c] : 0.0;
+      y[c] = in ? H[c] * momentum_tilde[e][c] / rho[c] : 0.0;
+    });
+    system.wrap_couplings();
+    const SolveReport report = solve(system, rhs, y, options);
+    require_converged(report, "momentum redistribution");
+    if (report.iterations > worst.iterations) worst = report;
     // In flux form, so that momentum is conserved however well y was solved for.
     A.apply(y, rhs);
-    for_each<Cell>(layout, grid.cells(), [&](Cell c) {
-      const double momentum = momentum_tilde[e][c] - rhs[c] / grid.volume(c);
-      u_bar[e][c] = rho[c] > work.least_density ? momentum / rho[c] : 0.0;
-    });
+    for_each<Cell>(layout, grid.cells(),
+                   [&](Cell c) { set_velocity(e, c, momentum_tilde[e][c] - rhs[c] / grid.volume(c)); });
   }
-  A.diagonal = diagonal;
   return worst;
 }
 

@@ -14,12 +14,9 @@ namespace quicksand {
 /// The operator A = -div grad in finite volumes, H of every species (next step's guess), and work arrays.
 template <int Dim>
 struct RedistributionWork {
-  StencilMatrix<Dim, Cell> laplacian;  ///< for volume and tangential momentum
-  /// Per velocity component the diagonal of its operator, which is odd at closed sides that the component is normal to
-  /// and has a hoop term; couplings are those of the laplacian.
-  CellVectors<Dim> diagonal;
-  std::vector<CellField> H_species;  ///< H_i of (25)
-  CellField H;                       ///< (27)
+  StencilMatrix<Dim, Cell> laplacian;  ///< for volume; that of a velocity component differs in its diagonal
+  std::vector<CellField> H_species;    ///< H_i of (25)
+  CellField H;                         ///< (27)
 
   double least_density;  ///< cells of lower density are without momentum
 
@@ -39,7 +36,8 @@ std::vector<ObstacleReport> redistribute_volume(const Domain<Dim>& domain, const
 /// Redistributed velocity u-bar of (11): rho^{n+1} u-bar = rho~ u~ + lap(H u-bar).
 ///
 /// With y = H u-bar on {H > 0} the system (V rho / H + A) y = V rho~ u~ is symmetric positive definite; elsewhere u-bar
-/// is explicit. For the radial component A is that of the vector Laplacian (V / r^2 more).
+/// is explicit. A is odd at closed sides that the component is normal to; for the radial component it is that of the
+/// vector Laplacian (V / r^2 more).
 ///
 /// \param momentum_tilde  rho~ u~, owned cells
 /// \param rho             rho^{n+1}

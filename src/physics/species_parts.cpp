@@ -17,7 +17,7 @@ SpeciesParts<Dim>::SpeciesParts(const GridOverlap<Dim>& overlap, const Fractions
                                 const Interfaces<Dim>& interfaces)
     : overlap_(overlap), phi_(phi), interfaces_(interfaces), mixed_(overlap.source().layout()) {
   for (std::size_t k = 0; k < phi.size(); ++k) {
-    offset_.push_back(interfaces.surface[k].offset);
+    offset_.emplace_back(overlap.source().layout());
     place_planes(k);
   }
   find_mixed();
@@ -31,7 +31,7 @@ double SpeciesParts<Dim>::filled(std::size_t k, const GridPart<Dim>& part, doubl
   // The part as a unit cube of its own, mirrored along axes where the normal is negative.
   Vec<Dim> m;
   for (int d = 0; d < Dim; ++d) {
-    const double n = surface.normal[d][c];
+    const double n = surface.plane(c).normal[d];
     m[d] = std::abs(n) * (part.high[d] - part.low[d]);
     offset -= n * (n >= 0 ? part.low[d] : part.high[d]);
   }
@@ -44,9 +44,10 @@ void SpeciesParts<Dim>::place_planes(std::size_t k) {
   const Surface<Dim>& surface = interfaces_.surface[k];
   for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
     if (!surface.cuts(c)) return;
+    const CellPlane<Dim>& plane = surface.plane(c);
     double low = 0;
     double high = 0;
-    for (int d = 0; d < Dim; ++d) (surface.normal[d][c] < 0 ? low : high) += surface.normal[d][c];
+    for (const double n : plane.normal.v) (n < 0 ? low : high) += n;
     const double fraction = interfaces_.region[k][c];
     const auto error = [&](double offset) {
       double volume = 0;
@@ -54,7 +55,7 @@ void SpeciesParts<Dim>::place_planes(std::size_t k) {
                                    [&](const GridPart<Dim>& part) { volume += part.volume * filled(k, part, offset); });
       return volume / grid.volume(c) - fraction;
     };
-    offset_[k][c] = rising_root(error, low, high, -fraction, 1 - fraction, surface.offset[c]);
+    offset_[k][c] = rising_root(error, low, high, -fraction, 1 - fraction, plane.offset);
   });
 }
 

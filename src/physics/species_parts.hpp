@@ -44,7 +44,7 @@ class SpeciesParts {
   const GridOverlap<Dim>& overlap_;
   const Fractions& phi_;
   const Interfaces<Dim>& interfaces_;
-  std::vector<CellField> offset_;  ///< per region
+  std::vector<CellField> offset_;  ///< per region, of the cells that it cuts
   CellMask mixed_;
 };
 

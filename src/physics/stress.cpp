@@ -18,7 +18,8 @@ constexpr double plug_share = 1e-4;
 template <int Dim>
 StressFields evaluate_stress(const Flow<Dim>& flow) {
   const Grid<Dim>& grid = flow.domain().grid;
-  const StressElements<Dim>& elements = flow.stress_elements();
+  StressElements<Dim> elements(flow.domain());
+  mark_stress_elements(flow.domain(), flow.parameters().species, flow.state().phi, flow.total(), elements);
   StressFields fields{CellField(grid.layout()), CellField(grid.layout()), CellField(grid.layout())};
   CellField weights(grid.layout());
   for_each_coloured<Node>(grid.layout(), grid.nodes(), [&](Node n, const Index<Dim>& index) {

@@ -44,8 +44,24 @@ double concentration_factor(double kappa, double c) {
 }
 
 template <int Dim>
+void StressElements<Dim>::acquire(const Layout<Dim>& layout) {
+  if (active.size() > 0) return;
+  active = NodeMask(layout);
+  rheology = Field<Node, Rheology>(layout);
+  share = part = NodeField(layout);
+}
+
+template <int Dim>
+void StressElements<Dim>::release() {
+  active = {};
+  rheology = {};
+  share = part = {};
+}
+
+template <int Dim>
 bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>& species, const Fractions& phi,
                           const CellField& total, StressElements<Dim>& elements) {
+  elements.acquire(domain.layout());
   std::vector<Rheology> pure;
   for (const Species& s : species) pure.push_back(rheology(s.law));
   elements.active.fill(0);
@@ -85,6 +101,8 @@ bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>&
   return sum<Node>(layout, grid.nodes(), [&](Node n) { return elements.active[n] ? 1.0 : 0.0; }) > 0;
 }
 
+template struct StressElements<2>;
+template struct StressElements<3>;
 template bool mark_stress_elements(const Domain<2>&, const std::vector<Species>&, const Fractions&, const CellField&,
                                    StressElements<2>&);
 template bool mark_stress_elements(const Domain<3>&, const std::vector<Species>&, const Fractions&, const CellField&,

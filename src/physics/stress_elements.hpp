@@ -22,18 +22,16 @@ struct StressElements {
   NodeField share;                 ///< liquid an active element stands for, as a part of its volume
   NodeField part;                  ///< liquid that an inactive element leaves to each active neighbour
 
-  explicit StressElements(const Domain<Dim>& domain)
-      : mesh(domain),
-        active(domain.layout()),
-        rheology(domain.layout()),
-        share(domain.layout()),
-        part(domain.layout()) {}
+  explicit StressElements(const Domain<Dim>& domain) : mesh(domain) {}
+  /// Makes the fields, where they are not there; gives them back.
+  void acquire(const Layout<Dim>& layout);
+  void release();
 };
 
 /// The factor of (43b): (exp(kappa c) - 1) / (exp(kappa) - 1), c for kappa = 0.
 double concentration_factor(double kappa, double c);
 
-/// Finds the active elements, their rheology and their shares for the given fractions.
+/// Finds the active elements, in fields that it acquires, their rheology and their shares for the given fractions.
 ///
 /// The law of an element follows from the mean composition c_i = phi_i / sum phi of its corner cells: the stresses of
 /// all species at the common strain rate add up, with viscosities, consistencies and yield stresses each times (43b).

@@ -48,22 +48,23 @@ Vec<Dim> youngs_normal(const Grid<Dim>& grid, const CellField& total, Cell c) {
 
 template <int Dim>
 void reconstruct_surface(const Grid<Dim>& grid, const CellField& total, Surface<Dim>& surface) {
-  for_each<Cell>(grid.layout(), grow(grid.cells(), 1), [&](Cell c) {
-    for (int d = 0; d < Dim; ++d) surface.normal[d][c] = 0;
-    if (total[c] < uncut || total[c] > 1 - uncut) return;
+  const auto candidate = [&](Cell c) { return !(total[c] < uncut || total[c] > 1 - uncut); };
+  surface.find(grid.layout(), grow(grid.cells(), 1), candidate, [&](Cell c) {
+    CellPlane<Dim> plane;
     const Vec<Dim> n = youngs_normal(grid, total, c);
     double norm = 0;
     for (int d = 0; d < Dim; ++d) norm += std::abs(n[d]);
     constexpr double full_norm = Dim == 2 ? 2 : 8;
-    if (norm < faint * full_norm) return;
+    if (norm < faint * full_norm) return plane;
     Vec<Dim> m;
     double mirrored = 0;
     for (int d = 0; d < Dim; ++d) {
-      surface.normal[d][c] = n[d] / norm;
+      plane.normal[d] = n[d] / norm;
       m[d] = std::abs(n[d]) / norm;
       if (n[d] < 0) mirrored += m[d];
     }
-    surface.offset[c] = plane_offset(m, total[c]) - mirrored;
+    plane.offset = plane_offset(m, total[c]) - mirrored;
+    return plane;
   });
 }
 

@@ -13,19 +13,49 @@
 
 namespace quicksand {
 
-/// Planes n . x = offset in cell coordinates 0 <= x <= 1, liquid where n . x <= offset; sum |n_d| = 1.
+/// n . x = offset in cell coordinates 0 <= x <= 1, liquid where n . x <= offset; sum |n_d| = 1.
 template <int Dim>
-struct Surface {
-  CellVectors<Dim> normal;  ///< out of the liquid; zero where a cell is not cut
-  CellField offset;
+struct CellPlane {
+  Vec<Dim> normal;  ///< out of the liquid; zero where there is no plane
+  double offset = 0;
+};
 
-  explicit Surface(const Layout<Dim>& layout) : normal(layout), offset(layout) {}
+/// The planes of the few cells that a surface cuts.
+template <int Dim>
+class Surface {
+ public:
+  explicit Surface(const Layout<Dim>& layout) : number_(layout, uncut) {}
 
-  bool cuts(Cell c) const {
-    bool cut = false;
-    for (int d = 0; d < Dim; ++d) cut = cut || normal[d][c] != 0;
-    return cut;
+  bool cuts(Cell c) const { return number_[c] != uncut; }
+  /// The plane in a cell that is cut.
+  const CellPlane<Dim>& plane(Cell c) const { return planes_[static_cast<std::size_t>(number_[c])]; }
+  /// Puts plane(c) into the cells of the box where candidate(c), unless its normal is zero. No other cells are cut
+  /// after that.
+  template <class Candidate, class FindPlane>
+  void find(const Layout<Dim>& layout, const Box<Dim>& box, Candidate&& candidate, FindPlane&& plane) {
+    number_.fill(uncut);
+    int count = 0;
+    const Rows<Dim> rows(layout, box);
+    for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
+      const std::ptrdiff_t start = rows.start(r);
+      for (int i = 0; i < rows.length; ++i) {
+        const Cell c{start + i};
+        if (candidate(c)) number_[c] = count++;
+      }
+    }
+    planes_.resize(static_cast<std::size_t>(count));
+    for_each<Cell>(layout, box, [&](Cell c) {
+      if (!cuts(c)) return;
+      CellPlane<Dim>& found = planes_[static_cast<std::size_t>(number_[c])];
+      found = plane(c);
+      if (found.normal == Vec<Dim>{}) number_[c] = uncut;
+    });
   }
+
+ private:
+  static constexpr int uncut = -1;
+  Field<Cell, int> number_;
+  std::vector<CellPlane<Dim>> planes_;
 };
 
 /// The surfaces of the species' nested regions: region i holds species 0 ... i together, the last one all liquid.
@@ -52,17 +82,18 @@ template <int Dim>
 double swept_fraction(const Grid<Dim>& grid, const Surface<Dim>& surface, const CellField& total,
                       const CellVectors<Dim>& u, Cell c, int d, int side, double velocity, double dt) {
   if (!surface.cuts(c)) return std::min(total[c], 1.0);
-  double offset = surface.offset[c];
+  const CellPlane<Dim>& plane = surface.plane(c);
+  double offset = plane.offset;
   Vec<Dim> m;
   for (int e = 0; e < Dim; ++e) {
-    const double n = surface.normal[e][c];
+    const double n = plane.normal[e];
     if (e != d) offset += 0.5 * dt * n * u[e][c] / grid.width(e, c);
     // Mirrored axes make all components positive.
     if (n < 0) offset -= n;
     m[e] = std::abs(n);
   }
   const double thickness = std::min(std::abs(velocity) * dt / grid.width(d, c), 1.0);
-  const bool slab_at_end = (side > 0) == (surface.normal[d][c] >= 0);
+  const bool slab_at_end = (side > 0) == (plane.normal[d] >= 0);
   if (slab_at_end) offset -= m[d] * (1 - thickness);
   m[d] *= thickness;
   return cut_fraction(m, offset);

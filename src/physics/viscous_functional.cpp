@@ -1,5 +1,6 @@
 #include "physics/viscous_functional.hpp"
 
+#include "physics/active_elements.hpp"
 #include "physics/element_stiffness.hpp"
 #include "physics/rigid_yield.hpp"
 
@@ -37,28 +38,35 @@ void advance_stress(StrainRate<Dim>& stress, const StrainRate<Dim>& s, const Str
   }
 }
 
-/// a A + b B; its scalar means nothing.
-template <int Dim>
-StrainRate<Dim> combination(double a, const StrainRate<Dim>& A, double b, const StrainRate<Dim>& B) {
-  StrainRate<Dim> sum;
-  sum.third = a * A.third + b * B.third;
+/// A += b B; its scalar means nothing.
+template <int Dim, class Real>
+void add(StrainRate<Dim, Real>& A, const Real& b, const StrainRate<Dim, Real>& B) {
+  A.third += b * B.third;
   for (int i = 0; i < Dim; ++i) {
-    for (int j = 0; j < Dim; ++j) sum.delta[i][j] = a * A.delta[i][j] + b * B.delta[i][j];
+    for (int j = 0; j < Dim; ++j) A.delta[i][j] += b * B.delta[i][j];
   }
-  sum.scalar = 0;
-  return sum;
 }
 
-/// Weights of an element's points times a factor.
-template <int Dim>
-struct PointWeights {
-  double at[point_count<Dim>];
+/// Strain rates at the points of an element that moves with velocities u.
+template <int Dim, class Real>
+struct PointRates {
+  StrainRate<Dim, Real> at[point_count<Dim>];
+
+  PointRates(const DualElement<Dim, Real>& e, const CellVectors<Dim>& u) {
+    Real corner[corner_count<Dim>][Dim];
+    gather(e, u, corner);
+    strain_rates(e, corner, at);
+  }
 };
-template <int Dim>
-PointWeights<Dim> point_weights(const DualElement<Dim>& e, double factor) {
-  PointWeights<Dim> weights;
-  for (int q = 0; q < point_count<Dim>; ++q) weights.at[q] = factor * e.weight(q);
-  return weights;
+
+/// Stresses become forces on the cells: those of a linear law, weight times viscosity times strain rate.
+template <int Dim, class Real>
+[[gnu::always_inline]] inline void scatter_stress(const DualElement<Dim, Real>& e,
+                                                  const StrainRate<Dim, Real> (&stress)[point_count<Dim>],
+                                                  CellVectors<Dim>& cells) {
+  Real force[corner_count<Dim>][Dim] = {};
+  add_forces(e, stress, force);
+  scatter(e, force, cells);
 }
 
 /// Number of the lower offset whose cells lie `place` (base 3) apart.
@@ -77,22 +85,22 @@ struct OffsetTable {
 
 /// Adds an element's stiffness to the matrix. Corners on the boundary share the cells of others, so that two corners
 /// may be one cell, or lie the other way round than their numbers.
-template <int Dim>
-void scatter(const DualElement<Dim>& e, const ElementMatrix<Dim>& K, const OffsetTable<Dim>& table,
+template <int Dim, class Real>
+void scatter(const DualElement<Dim, Real>& e, const ElementMatrix<Dim, Real>& K, const OffsetTable<Dim>& table,
              VelocityMatrix<Dim>& matrix) {
   for (int a = 0; a < corner_count<Dim>; ++a) {
     for (int b = 0; b <= a; ++b) {
       const int apart = e.place[a] - e.place[b];
       for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j) {
-          const double value = e.factor[a][i] * e.factor[b][j] * K.at[a][b][i][j];
+          const Real value = e.factor[a][i] * e.factor[b][j] * K.at[a][b][i][j];
           if (apart > 0) {
-            matrix.lower(i, j, table.of_place[apart])[e.corner[a]] += value;
+            add_to(matrix.lower(i, j, table.of_place[apart]), e.corner[a], value);
           } else if (apart < 0) {
-            matrix.lower(j, i, table.of_place[-apart])[e.corner[b]] += value;
+            add_to(matrix.lower(j, i, table.of_place[-apart]), e.corner[b], value);
           } else {
-            if (i <= j) matrix.centre(i, j)[e.corner[a]] += value;
-            if (a != b && j <= i) matrix.centre(j, i)[e.corner[a]] += value;
+            if (i <= j) add_to(matrix.centre(i, j), e.corner[a], value);
+            if (a != b && j <= i) add_to(matrix.centre(j, i), e.corner[a], value);
           }
         }
       }
@@ -113,36 +121,45 @@ FunctionalValue evaluate_functional(const Domain<Dim>& domain, const CellVectors
     inertia += sum<Cell>(layout, cells, [&](Cell c) { return 0.5 * gradient[d][c] * (u[d][c] - u_hat[d][c]); });
   }
   const Box<Dim> elements = elements_around(domain.grid, cells);
-  for_each_coloured<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
-    work.potential[n] = 0;
-    work.gap[n] = 0;
-    if (!work.elements.active[n]) return;
-    const DualElement<Dim> e = work.elements.mesh.element(n, index);
-    double corner[corner_count<Dim>][Dim];
-    gather(e, u, corner);
-    StrainRate<Dim> rates[point_count<Dim>];
-    strain_rates(e, corner, rates);
-    double potential = 0;
-    double gap = 0;
+  for_each<Node>(layout, elements, [&](Node n) { work.potential[n] = work.gap[n] = 0; });
+  for_each_active_element(layout, elements, work.elements, [&]<class Element>(const Element& e) {
+    using Real = typename Element::Number;
+    PointRates<Dim, Real> rates(e, u);
+    const ElementMaterial<Dim, Real> material(work.elements, e);
+    Real potential{};
+    Real gap{};
     for (int q = 0; q < point_count<Dim>; ++q) {
-      const double weight = dt * work.elements.share[n] * e.weight(q);
-      StrainRate<Dim>& s = rates[q];  // becomes the stress
-      const LawValue law = evaluate(work.elements.rheology[n], s.scalar);
-      potential += weight * law.potential;
-      if (work.elements.rheology[n].rigid_yield_stress > 0) {
-        const RigidYield<Dim> rigid = work.rigid_yield(n, q, s);
-        potential += weight * rigid.potential;
-        gap += weight * rigid.gap;
-        s = combination(weight * law.f, s, weight, rigid.stress);
-      } else {
-        s = combination(weight * law.f, s, 0, s);
+      const Real weight = dt * e.share * e.weight(q);
+      const StrainRate<Dim, Real>& s = rates.at[q];
+      Real f = material.viscosity();
+      Real point_potential = 0.5 * f * s.scalar * s.scalar;
+      if (material.nonlinear()) {
+        material.evaluate_lanes(s.scalar, [&](int l, const LawValue& law) {
+          set_lane(f, l, law.f);
+          set_lane(point_potential, l, law.potential);
+        });
       }
+      StrainRate<Dim, Real> stress{};
+      if (material.rigid()) {
+        Real point_gap{};
+        for (int l = 0; l < lanes<Real>; ++l) {
+          if (!e.on(l)) continue;
+          const RigidYield<Dim> rigid = work.rigid_yield(e.node + Step{l}, q, lane(s, l));
+          set_lane(stress, l, rigid.stress);
+          set_lane(point_potential, l, lane(point_potential, l) + rigid.potential);
+          set_lane(point_gap, l, rigid.gap);
+        }
+        gap += weight * point_gap;
+      }
+      add(stress, f, s);
+      potential += weight * point_potential;
+      StrainRate<Dim, Real> weighted{};
+      add(weighted, weight, stress);
+      rates.at[q] = weighted;
     }
-    double force[corner_count<Dim>][Dim] = {};
-    add_forces(e, rates, force);
-    work.potential[n] = potential;
-    work.gap[n] = gap;
-    scatter(e, force, gradient);
+    scatter_stress(e, rates.at, gradient);
+    add_to(work.potential, e.node, potential);
+    add_to(work.gap, e.node, gap);
   });
   return {.value = inertia + sum<Node>(layout, elements, [&](Node n) { return work.potential[n]; }),
           .gap = work.multiplier.size() == 0 ? 0.0 : sum<Node>(layout, elements, [&](Node n) { return work.gap[n]; })};
@@ -162,34 +179,51 @@ void assemble_matrix(const Domain<Dim>& domain, const CellVectors<Dim>& u, doubl
     for_each<Cell>(layout, matrix.box(), [&](Cell c) { diagonal[c] = mass[c] > 0 ? mass[c] : 1.0; });
   }
   const Box<Dim> elements = elements_around(domain.grid, matrix.box());
-  for_each_coloured<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
-    if (!work.elements.active[n]) return;
-    const DualElement<Dim> e = work.elements.mesh.element(n, index);
-    double corner[corner_count<Dim>][Dim];
-    gather(e, u, corner);
-    StrainRate<Dim> rates[point_count<Dim>];
-    strain_rates(e, corner, rates);
-    ElementMatrix<Dim> K;
-    double viscosity[point_count<Dim>];  // times weight
-    const bool tangent = linearisation == Linearisation::tangent;
+  const bool tangent = linearisation == Linearisation::tangent;
+  for_each_active_element(layout, elements, work.elements, [&]<class Element>(const Element& e) {
+    using Real = typename Element::Number;
+    const PointRates<Dim, Real> rates(e, u);
+    const ElementMaterial<Dim, Real> material(work.elements, e);
+    ElementMatrix<Dim, Real> K;
+    Real viscosity[point_count<Dim>];  // times weight
     for (int q = 0; q < point_count<Dim>; ++q) {
-      const double weight = dt * work.elements.share[n] * e.weight(q);
-      const StrainRate<Dim>& s = rates[q];
-      const LawValue law = evaluate(work.elements.rheology[n], s.scalar);
-      viscosity[q] = weight * law.f;
-      if (tangent && law.plastic > 0) {
-        const StrainRate<Dim>& stress = work.stress[n].at[q];
-        add_product(e, q, s, stress, weight * plastic_coefficient(law.plastic, law.plastic_slope, s, stress), K);
+      const Real weight = dt * e.share * e.weight(q);
+      const StrainRate<Dim, Real>& s = rates.at[q];
+      Real f = material.viscosity();
+      if (material.nonlinear()) {
+        StrainRate<Dim, Real> stress{};
+        Real plastic{};
+        Real thickening{};
+        material.evaluate_lanes(s.scalar, [&](int l, const LawValue& law) {
+          set_lane(f, l, law.f);
+          if (!tangent) return;
+          if (law.plastic > 0) {
+            const StrainRate<Dim>& own = work.stress[e.node + Step{l}].at[q];
+            set_lane(stress, l, own);
+            set_lane(plastic, l, plastic_coefficient(law.plastic, law.plastic_slope, lane(s, l), own));
+          }
+          const double slope = law.slope - law.plastic_slope;
+          if (slope > 0) set_lane(thickening, l, slope / lane(s.scalar, l));
+        });
+        if (any(plastic)) add_product(e, q, s, stress, weight * plastic, K);
+        if (any(thickening)) add_product(e, q, s, s, weight * thickening, K);
       }
-      const double thickening = law.slope - law.plastic_slope;
-      if (tangent && thickening > 0) add_product(e, q, s, s, weight * thickening / s.scalar, K);
-      if (!(work.elements.rheology[n].rigid_yield_stress > 0)) continue;
-      const RigidYield<Dim> rigid = work.rigid_yield(n, q, s);
-      viscosity[q] += weight * rigid.f;
-      if (!tangent) continue;
-      const StrainRate<Dim>& stress = work.rigid_stress[n].at[q];
-      add_product(e, q, rigid.driver, stress, weight * plastic_coefficient(rigid.f, rigid.slope, rigid.driver, stress),
-                  K);
+      if (material.rigid()) {
+        StrainRate<Dim, Real> driver{};
+        StrainRate<Dim, Real> stress{};
+        Real plastic{};
+        for (int l = 0; l < lanes<Real>; ++l) {
+          if (!e.on(l)) continue;
+          const RigidYield<Dim> rigid = work.rigid_yield(e.node + Step{l}, q, lane(s, l));
+          set_lane(f, l, lane(f, l) + rigid.f);
+          const StrainRate<Dim>& own = work.rigid_stress[e.node + Step{l}].at[q];
+          set_lane(driver, l, rigid.driver);
+          set_lane(stress, l, own);
+          set_lane(plastic, l, plastic_coefficient(rigid.f, rigid.slope, rigid.driver, own));
+        }
+        if (tangent && any(plastic)) add_product(e, q, driver, stress, weight * plastic, K);
+      }
+      viscosity[q] = weight * f;
     }
     add_viscous(e, viscosity, K);
     scatter(e, K, table, matrix);
@@ -205,18 +239,17 @@ void apply_linear_stress(const Domain<Dim>& domain, const CellVectors<Dim>& v, d
     const CellField& mass = work.mass[d];
     for_each<Cell>(domain.layout(), cells, [&](Cell c) { y[d][c] = (mass[c] > 0 ? mass[c] : 1.0) * v[d][c]; });
   }
-  for_each_coloured<Node>(domain.layout(), elements_around(domain.grid, cells), [&](Node n, const Index<Dim>& index) {
-    if (!work.elements.active[n]) return;
-    const DualElement<Dim> e = work.elements.mesh.element(n, index);
-    double corner[corner_count<Dim>][Dim];
+  const Box<Dim> elements = elements_around(domain.grid, cells);
+  for_each_active_element(domain.layout(), elements, work.elements, [&]<class Element>(const Element& e) {
+    using Real = typename Element::Number;
+    Real corner[corner_count<Dim>][Dim];
     gather_change(e, v, corner);
-    StrainRate<Dim> rates[point_count<Dim>];
+    StrainRate<Dim, Real> rates[point_count<Dim>];
     strain_rates(e, corner, rates);
-    const double factor = dt * work.elements.share[n] * work.elements.rheology[n].viscosity;
-    for (int q = 0; q < point_count<Dim>; ++q) rates[q] = combination(factor * e.weight(q), rates[q], 0, rates[q]);
-    double force[corner_count<Dim>][Dim] = {};
-    add_forces(e, rates, force);
-    scatter(e, force, y);
+    const Real factor = dt * e.share * ElementMaterial<Dim, Real>(work.elements, e).viscosity();
+    StrainRate<Dim, Real> stress[point_count<Dim>] = {};
+    for (int q = 0; q < point_count<Dim>; ++q) add<Dim, Real>(stress[q], factor * e.weight(q), rates[q]);
+    scatter_stress(e, stress, y);
   });
 }
 
@@ -228,17 +261,26 @@ void linear_stress_diagonal(const Domain<Dim>& domain, double dt, DiffusionWork<
     const CellField& mass = work.mass[d];
     for_each<Cell>(domain.layout(), cells, [&](Cell c) { diagonal[d][c] = mass[c] > 0 ? mass[c] : 1.0; });
   }
-  for_each_coloured<Node>(domain.layout(), elements_around(domain.grid, cells), [&](Node n, const Index<Dim>& index) {
-    if (!work.elements.active[n]) return;
-    const DualElement<Dim> e = work.elements.mesh.element(n, index);
-    ElementMatrix<Dim> K;
-    add_viscous(e, point_weights(e, dt * work.elements.share[n] * work.elements.rheology[n].viscosity).at, K);
+  const Box<Dim> elements = elements_around(domain.grid, cells);
+  for_each_active_element(domain.layout(), elements, work.elements, [&]<class Element>(const Element& e) {
+    using Real = typename Element::Number;
+    const Real factor = dt * e.share * ElementMaterial<Dim, Real>(work.elements, e).viscosity();
     for (int a = 0; a < corner_count<Dim>; ++a) {
-      for (int b = 0; b <= a; ++b) {
-        if (!(e.corner[a] == e.corner[b])) continue;  // two corners on the boundary may be one cell
-        for (int i = 0; i < Dim; ++i) {
-          diagonal[i][e.corner[a]] += (a == b ? 1 : 2) * e.factor[a][i] * e.factor[b][i] * K.at[a][b][i][i];
+      for (int i = 0; i < Dim; ++i) {
+        // The cell moves by itself: all corners that it is, of which one speaks for it.
+        Real corner[corner_count<Dim>][Dim] = {};
+        bool first = true;
+        for (int b = 0; b < corner_count<Dim>; ++b) {
+          if (!(e.corner[b] == e.corner[a])) continue;
+          first = first && b >= a;
+          corner[b][i] = Real{} + e.factor[b][i];
         }
+        if (!first) continue;
+        StrainRate<Dim, Real> rates[point_count<Dim>];
+        strain_rates(e, corner, rates);
+        Real stiffness{};
+        for (int q = 0; q < point_count<Dim>; ++q) stiffness += e.weight(q) * inner(rates[q], rates[q]);
+        add_to(diagonal[i], e.corner[a], factor * stiffness);
       }
     }
   });
@@ -250,30 +292,37 @@ void update_plastic_stress(const Domain<Dim>& domain, const CellVectors<Dim>& u,
   const bool regularised = work.stress.size() > 0;
   const bool rigid = work.multiplier.size() > 0;
   if (!regularised && !rigid) return;
-  for_each_stress_element(domain, u, work, [&](Node n, const DualElement<Dim>& e, const auto& rates) {
-    const Rheology& rheology = work.elements.rheology[n];
-    double change[corner_count<Dim>][Dim];
+  const Box<Dim> elements = elements_around(domain.grid, work.matrix.box());
+  for_each_active_element(domain.layout(), elements, work.elements, [&]<class Element>(const Element& e) {
+    using Real = typename Element::Number;
+    const PointRates<Dim, Real> rates(e, u);
+    Real change[corner_count<Dim>][Dim];
     gather_change(e, update, change);
-    StrainRate<Dim> changes[point_count<Dim>];
+    StrainRate<Dim, Real> changes[point_count<Dim>];
     strain_rates(e, change, changes);
-    for (int q = 0; q < point_count<Dim>; ++q) {
-      const StrainRate<Dim>& s = rates[q];
-      const StrainRate<Dim>& ds = changes[q];
-      if (regularised) {
-        StrainRate<Dim>& stress = work.stress[n].at[q];
-        const LawValue law = evaluate(rheology, s.scalar);
-        if (law.plastic > 0) {
-          advance_stress(stress, s, ds, law.plastic, law.plastic_slope);
-          limit(stress, plastic_bound(rheology, std::max(s.scalar, add_scaled(s, -1, ds).scalar)));
-        } else {
-          stress = {};
+    for (int l = 0; l < lanes<Real>; ++l) {
+      if (!e.on(l)) continue;
+      const Node n = e.node + Step{l};
+      const Rheology& rheology = work.elements.rheology[n];
+      for (int q = 0; q < point_count<Dim>; ++q) {
+        const StrainRate<Dim> s = lane(rates.at[q], l);
+        const StrainRate<Dim> ds = lane(changes[q], l);
+        if (regularised) {
+          StrainRate<Dim>& stress = work.stress[n].at[q];
+          const LawValue law = evaluate(rheology, s.scalar);
+          if (law.plastic > 0) {
+            advance_stress(stress, s, ds, law.plastic, law.plastic_slope);
+            limit(stress, plastic_bound(rheology, std::max(s.scalar, add_scaled(s, -1, ds).scalar)));
+          } else {
+            stress = {};
+          }
         }
-      }
-      if (rigid && rheology.rigid_yield_stress > 0) {
-        const RigidYield<Dim> point = work.rigid_yield(n, q, s);
-        StrainRate<Dim>& stress = work.rigid_stress[n].at[q];
-        advance_stress(stress, point.driver, ds, point.f, point.slope);
-        limit(stress, rheology.rigid_yield_stress);
+        if (rigid && rheology.rigid_yield_stress > 0) {
+          const RigidYield<Dim> point = work.rigid_yield(n, q, s);
+          StrainRate<Dim>& stress = work.rigid_stress[n].at[q];
+          advance_stress(stress, point.driver, ds, point.f, point.slope);
+          limit(stress, rheology.rigid_yield_stress);
+        }
       }
     }
   });
@@ -293,8 +342,10 @@ NodeField dual_steps(const Domain<Dim>& domain, double dt, const DiffusionWork<D
   for_each_indexed<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
     if (!work.elements.active[n]) return;
     const DualElement<Dim> e = work.elements.mesh.element(n, index);
+    double weights[point_count<Dim>];
+    for (int q = 0; q < point_count<Dim>; ++q) weights[q] = dt * work.elements.share[n] * e.weight(q);
     ElementMatrix<Dim> K;
-    add_viscous(e, point_weights(e, dt * work.elements.share[n]).at, K);
+    add_viscous(e, weights, K);
     // Row sums of the scaled matrix bound its eigenvalues; the lower half of K stands for both.
     double rows[corner_count<Dim>][Dim] = {};
     const auto scale = [&](int k, int c) {

@@ -99,7 +99,7 @@ SolveReport solve(const StencilMatrix<Dim, At>& matrix, Preconditioner<Dim, At>&
 }
 
 template <int Dim, class At>
-SolveReport solve(const StencilMatrix<Dim, At>& matrix, const Field<At>& b, Field<At>& x, const SolveOptions& options) {
+SolveReport solve(StencilMatrix<Dim, At>& matrix, const Field<At>& b, Field<At>& x, const SolveOptions& options) {
   if (matrix.box.empty()) {
     SolveReport nothing;
     nothing.converged = true;
@@ -109,13 +109,14 @@ SolveReport solve(const StencilMatrix<Dim, At>& matrix, const Field<At>& b, Fiel
   if (!is_singular(matrix)) return solve_definite(matrix, b, x, options);
   // Doubling one diagonal makes the matrix definite; for a consistent right-hand side it picks the solution that is
   // zero at that point. So is the guess made, lest a good one look bad.
-  StencilMatrix<Dim, At> pinned = matrix;
   const At pin = first_coupled(matrix);
-  pinned.diagonal[pin] *= 2;
+  const double diagonal = matrix.diagonal[pin];
+  matrix.diagonal[pin] *= 2;
   subtract(matrix, x[pin], x);
   Field<At> consistent = b;
   remove_mean(matrix, consistent);
-  const SolveReport report = solve_definite(pinned, consistent, x, options);
+  const SolveReport report = solve_definite(matrix, consistent, x, options);
+  matrix.diagonal[pin] = diagonal;
   remove_mean(matrix, x);
   return report;
 }
@@ -128,10 +129,10 @@ void require_converged(const SolveReport& report, std::string_view what) {
   throw NumericalError(message.str());
 }
 
-template SolveReport solve(const StencilMatrix<2, Cell>&, const Field<Cell>&, Field<Cell>&, const SolveOptions&);
-template SolveReport solve(const StencilMatrix<2, Node>&, const Field<Node>&, Field<Node>&, const SolveOptions&);
-template SolveReport solve(const StencilMatrix<3, Cell>&, const Field<Cell>&, Field<Cell>&, const SolveOptions&);
-template SolveReport solve(const StencilMatrix<3, Node>&, const Field<Node>&, Field<Node>&, const SolveOptions&);
+template SolveReport solve(StencilMatrix<2, Cell>&, const Field<Cell>&, Field<Cell>&, const SolveOptions&);
+template SolveReport solve(StencilMatrix<2, Node>&, const Field<Node>&, Field<Node>&, const SolveOptions&);
+template SolveReport solve(StencilMatrix<3, Cell>&, const Field<Cell>&, Field<Cell>&, const SolveOptions&);
+template SolveReport solve(StencilMatrix<3, Node>&, const Field<Node>&, Field<Node>&, const SolveOptions&);
 
 template SolveReport solve(const StencilMatrix<2, Cell>&, Preconditioner<2, Cell>&, const Field<Cell>&, Field<Cell>&,
                            const Tolerance&);

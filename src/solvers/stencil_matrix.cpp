@@ -53,6 +53,34 @@ void visit_products(const StencilMatrix<Dim, At>& matrix, const Field<At>& x, co
   }
 }
 
+/// Couplings of a box stencil along an edge on axis d, from its high end: its own, and half of each that leads away
+/// from one of its ends, on the side of the other.
+template <int Dim, class At>
+struct EdgeSum {
+  static constexpr std::size_t slanting = Dim == 2 ? 4 : 16;
+  const double* own;
+  std::array<const double*, slanting> coefficient;  ///< at the high end
+
+  EdgeSum(const StencilMatrix<Dim, At>& matrix, int d) : own(&matrix.lower[static_cast<std::size_t>(d)][At{0}]) {
+    const std::ptrdiff_t to_low = -matrix.layout.step(d).n;
+    std::size_t k = 0;
+    for (std::size_t e = Dim; e < matrix.offsets.size(); ++e) {
+      const int towards = matrix.offsets[e][d];
+      if (towards == 0) continue;
+      // Couplings of the high end that lead down along d, and of the low end that lead up.
+      const double* const lower = &matrix.lower[e][At{0}];
+      const std::ptrdiff_t up = matrix.steps[e].n;
+      coefficient[k++] = lower + (towards < 0 ? 0 : up);
+      coefficient[k++] = lower + to_low + (towards < 0 ? up : 0);
+    }
+  }
+  double at(std::ptrdiff_t p) const {
+    double total = 0;
+    for (std::size_t k = 0; k < slanting; ++k) total += coefficient[k][p];
+    return own[p] + total / 2;
+  }
+};
+
 template <int Dim>
 Step flat_step(const Layout<Dim>& layout, const Index<Dim>& offset) {
   Step step;
@@ -169,26 +197,19 @@ StencilMatrix<Dim, At> star_part(const StencilMatrix<Dim, At>& matrix) {
   const Layout<Dim>& layout = matrix.layout;
   StencilMatrix<Dim, At> star(layout, Stencil::star);
   star.box = matrix.box;
-  const auto axis = [](int d) { return static_cast<std::size_t>(d); };
+  Field<At, unsigned char> coupled(layout);
+  for_each<At>(layout, matrix.box, [&](At p) { coupled[p] = matrix.uncoupled(p) ? 0 : 1; });
+  wrap(layout, matrix.box, coupled);
   for (int d = 0; d < Dim; ++d) {
-    const Step along = layout.step(d);
-    Field<At>& edge = star.lower[axis(d)];
     Box<Dim> inner = matrix.box;
     if (!matrix.wraps(d)) ++inner.lo[d];
-    for_each_indexed<At>(layout, inner, [&](At high, const Index<Dim>& i) {
-      const At low = high - along;
-      double coupling = matrix.lower[axis(d)][high];
-      for (std::size_t e = axis(Dim); e < matrix.offsets.size(); ++e) {
-        const int towards = matrix.offsets[e][d];
-        if (towards == 0) continue;
-        // Couplings of `high` that lead down along d, and of `low` that lead up.
-        const Step s = matrix.steps[e];
-        const bool down = towards < 0;
-        coupling += (matrix.lower[e][down ? high : high + s] + matrix.lower[e][down ? low + s : low]) / 2;
-      }
+    const EdgeSum<Dim, At> couplings(matrix, d);
+    const Step along = layout.step(d);
+    Field<At>& edge = star.lower[static_cast<std::size_t>(d)];
+    for_each<At>(layout, inner, [&](At high) {
       // Between two coupled rows only: identity rows stay identity rows.
-      const At low_row = high + (layout.image(d, i[d] - 1) - i[d]) * along;
-      if (!matrix.uncoupled(low_row) && !matrix.uncoupled(high)) edge[high] = std::min(coupling, 0.0);
+      const bool both = coupled[high] != 0 && coupled[high - along] != 0;
+      edge[high] = both ? std::min(couplings.at(high.n), 0.0) : 0.0;
     });
   }
   star.wrap_couplings();

@@ -27,7 +27,7 @@ struct Convection {
         acceleration(m.domain.layout()),
         momentum(m.domain.layout()),
         faces(m.domain.layout()),
-        work(m.domain.layout(), m.species.size()),
+        work(m.domain.layout()),
         phi_tilde(m.phi),
         escaped(m.species.size(), 0.0) {}
 

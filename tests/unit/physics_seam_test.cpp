@@ -57,7 +57,7 @@ struct Step {
         acceleration(domain.layout()),
         momentum(domain.layout()),
         faces(domain.layout()),
-        work(domain.layout(), 2),
+        work(domain.layout()),
         phi_tilde(mixture.phi),
         escaped(2, 0.0) {}
   Step(const Step&) = delete;

@@ -36,7 +36,7 @@ double true_residual(const StencilMatrix<Dim, At>& matrix, const Field<At>& b, F
 
 /// Solves for a rough right-hand side to 1e-8 from zero.
 template <int Dim, class At>
-void expect_solved(const StencilMatrix<Dim, At>& matrix, Method expected, int most_iterations) {
+void expect_solved(StencilMatrix<Dim, At> matrix, Method expected, int most_iterations) {
   const Field<At> b = rough_field(matrix);
   Field<At> x(matrix.layout);
   const SolveReport report = solve(matrix, b, x);
@@ -107,7 +107,7 @@ TEST(LinearSolver, SmallSystemsAndLinesAreFactorised) {
 TEST(LinearSolver, AllNeumannSystemsAreMadeConsistent) {
   for (const int n : {12, 80}) {
     const Grid<2> grid({uniform_axis(n), graded_axis(n, 2)}, Geometry::planar);
-    const auto matrix = cell_laplacian(grid, everywhere);
+    auto matrix = cell_laplacian(grid, everywhere);
     CellField b = rough_field(matrix);
     const double cells = static_cast<double>(matrix.box.size());
     const double mean = sum<Cell>(grid.layout(), matrix.box, [&](Cell c) { return b[c]; }) / cells;
@@ -124,7 +124,7 @@ TEST(LinearSolver, AllNeumannSystemsAreMadeConsistent) {
 
 TEST(LinearSolver, WarmStartSavesIterations) {
   const Grid<2> grid({uniform_axis(64), uniform_axis(64)}, Geometry::planar);
-  const auto matrix = cell_laplacian(grid, lower_part(grid));
+  auto matrix = cell_laplacian(grid, lower_part(grid));
   CellField b = rough_field(matrix);
   CellField x(grid.layout());
   const int cold = solve(matrix, b, x).iterations;
@@ -135,7 +135,7 @@ TEST(LinearSolver, WarmStartSavesIterations) {
 
 TEST(LinearSolver, ZeroRightHandSideGivesZero) {
   const Grid<2> grid({uniform_axis(64), uniform_axis(64)}, Geometry::planar);
-  const auto matrix = cell_laplacian(grid, lower_part(grid));
+  auto matrix = cell_laplacian(grid, lower_part(grid));
   const CellField b(grid.layout());
   CellField x(grid.layout());
   const SolveReport report = solve(matrix, b, x);
@@ -146,7 +146,7 @@ TEST(LinearSolver, ZeroRightHandSideGivesZero) {
 
 TEST(LinearSolver, AKeptPreconditionerServesSeveralRightHandSides) {
   const Grid<2> grid({uniform_axis(64), uniform_axis(64)}, Geometry::planar);
-  const auto matrix = node_laplacian(grid, lower_part(grid));
+  auto matrix = node_laplacian(grid, lower_part(grid));
   Preconditioner<2, Node> preconditioner(matrix);
   NodeField b = rough_field(matrix);
   for (int k = 0; k < 3; ++k) {
@@ -159,7 +159,7 @@ TEST(LinearSolver, AKeptPreconditionerServesSeveralRightHandSides) {
 
 TEST(LinearSolver, SaysWhenItDoesNotConverge) {
   const Grid<2> grid({uniform_axis(64), uniform_axis(64)}, Geometry::planar);
-  const auto matrix = cell_laplacian(grid, lower_part(grid));
+  auto matrix = cell_laplacian(grid, lower_part(grid));
   CellField x(grid.layout());
   SolveOptions options;
   options.relative = 1e-13;
@@ -178,7 +178,7 @@ TEST(LinearSolver, SaysWhenItDoesNotConverge) {
 
 TEST(LinearSolver, FallsBackWhenTheFirstChoiceFails) {
   const Grid<2> grid({graded_axis(48, 30), graded_axis(48, 30)}, Geometry::planar);
-  const auto matrix = cell_laplacian(grid, lower_part(grid));
+  auto matrix = cell_laplacian(grid, lower_part(grid));
   CellField x(grid.layout());
   SolveOptions options;
   options.method = Method::pfmg;
@@ -190,7 +190,7 @@ TEST(LinearSolver, FallsBackWhenTheFirstChoiceFails) {
 
 TEST(LinearSolver, RefusesValuesThatAreNotFinite) {
   const Grid<2> grid({uniform_axis(48), uniform_axis(48)}, Geometry::planar);
-  const auto matrix = cell_laplacian(grid, lower_part(grid));
+  auto matrix = cell_laplacian(grid, lower_part(grid));
   CellField b = rough_field(matrix);
   CellField x(grid.layout());
   // A guess that is not finite is replaced by zero.
