@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <new>
+#include <utility>
 #include <vector>
 
 #include "core/index.hpp"
