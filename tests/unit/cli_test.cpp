@@ -141,6 +141,27 @@ TEST(CommandLineText, VersionHelpAndSchema) {
   EXPECT_EQ(output_of({"schema"}).front(), '{');
 }
 
+TEST(CommandLineText, HelpOnACommandNamesItsOptions) {
+  for (const CommandHelp& command : command_table()) {
+    const std::string help = output_of({command.name, "--help"});
+    EXPECT_NE(output_of({"--help"}).find(std::string("quicksand ") + command.name), std::string::npos);
+    if (command.command == Command::help) continue;
+    EXPECT_EQ(help, output_of({"help", command.name}));
+    EXPECT_EQ(help.rfind(std::string("quicksand ") + command.name + ":", 0), 0u) << help;
+    for (const OptionHelp& option : command.options) EXPECT_NE(help.find(option.name), std::string::npos) << help;
+  }
+  EXPECT_NE(message({"help", "rnu"}).find("did you mean 'run'?"), std::string::npos);
+}
+
+TEST(CommandLineText, ManualPageHoldsEveryCommandAndNoWideLineOfHelp) {
+  const std::string page = output_of({"manual"});
+  for (const CommandHelp& command : command_table()) {
+    EXPECT_NE(page.find(std::string(".SS ") + command.name), std::string::npos) << command.name;
+  }
+  std::istringstream lines(output_of({"--help"}));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 92u) << line;
+}
+
 TEST_F(CommandLineFolder, InfoOnAResultFolder) {
   EXPECT_THROW(output_of({"info", folder_.string()}), FileError);
   EXPECT_THROW(output_of({"info", (folder_ / "none").string()}), FileError);
