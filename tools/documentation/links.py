@@ -6,7 +6,7 @@ from .pages import Page
 # Folders of the repository, and those of src/, which text names without it.
 TOP = ("src", "tests", "tools", "configs", "docs", "cmake", "bench", "examples", ".ci")
 LAYERS = ("core", "solvers", "physics", "app")
-PATH = re.compile(rf"(?:\.\./)*(?:{'|'.join(re.escape(folder) for folder in TOP + LAYERS)})/[\w./*{{}}-]+")
+PATH = re.compile(rf"(?:\.\./)*(?:{'|'.join(re.escape(folder) for folder in TOP + LAYERS)})/(?:[\w./*-]|\{{[^{{}}]*\}})+")
 FILE = re.compile(r"^[\w-]+\.(?:cpp|hpp)$|^[\w-]+_test\.py$")
 SHELL = ("", "sh", "bash", "console")
 
