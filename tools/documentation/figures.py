@@ -35,7 +35,7 @@ def tables(rows):
     """One table per suite of tests."""
     suites = {}
     for row in rows:
-        suites.setdefault(row["test"].split(".")[0], []).append(row)
+        suites.setdefault(row["test"].split(".")[0].rpartition("/")[2], []).append(row)
     lines = []
     for suite, members in sorted(suites.items()):
         lines += [f"### {suite}", "", "| case | quantity | measured | reference | difference | bound | source | test |",
