@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <source_location>
 #include <sstream>
 #include <string>
 
@@ -23,7 +22,12 @@ struct Figure {
   std::string source{};  ///< of the reference
 };
 
-using Where = std::source_location;
+/// Where a figure is expected. (clang 14 has no std::source_location.)
+struct Where {
+  const char* file;
+  int line;
+  static Where current(const char* file = __builtin_FILE(), int line = __builtin_LINE()) { return {file, line}; }
+};
 
 inline void record(const Figure& figure, double measured, const char* kind, double reference, double bound) {
   const char* path = std::getenv("QUICKSAND_FIGURES");
@@ -40,7 +44,7 @@ inline void record(const Figure& figure, double measured, const char* kind, doub
 /// |measured / reference - 1| <= bound
 inline void expect_relative(const Figure& figure, double measured, double reference, double bound,
                             Where where = Where::current()) {
-  const ::testing::ScopedTrace trace(where.file_name(), static_cast<int>(where.line()), figure.quantity);
+  const ::testing::ScopedTrace trace(where.file, where.line, figure.quantity);
   record(figure, measured, "relative", reference, bound);
   EXPECT_LE(std::abs(measured / reference - 1), bound) << figure.of << ": " << measured << " for " << reference;
 }
@@ -48,21 +52,21 @@ inline void expect_relative(const Figure& figure, double measured, double refere
 /// |measured - reference| <= bound
 inline void expect_absolute(const Figure& figure, double measured, double reference, double bound,
                             Where where = Where::current()) {
-  const ::testing::ScopedTrace trace(where.file_name(), static_cast<int>(where.line()), figure.quantity);
+  const ::testing::ScopedTrace trace(where.file, where.line, figure.quantity);
   record(figure, measured, "absolute", reference, bound);
   EXPECT_NEAR(measured, reference, bound) << figure.of;
 }
 
 /// An error or anything else that must not exceed a bound.
 inline void expect_at_most(const Figure& figure, double measured, double bound, Where where = Where::current()) {
-  const ::testing::ScopedTrace trace(where.file_name(), static_cast<int>(where.line()), figure.quantity);
+  const ::testing::ScopedTrace trace(where.file, where.line, figure.quantity);
   record(figure, measured, "at most", 0, bound);
   EXPECT_LE(measured, bound) << figure.of;
 }
 
 /// An order of convergence or anything else that must reach a bound.
 inline void expect_at_least(const Figure& figure, double measured, double bound, Where where = Where::current()) {
-  const ::testing::ScopedTrace trace(where.file_name(), static_cast<int>(where.line()), figure.quantity);
+  const ::testing::ScopedTrace trace(where.file, where.line, figure.quantity);
   record(figure, measured, "at least", 0, bound);
   EXPECT_GE(measured, bound) << figure.of;
 }
