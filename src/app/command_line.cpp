@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <ostream>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "app/case_config.hpp"
+#include "app/case_reference.hpp"
 #include "app/case_report.hpp"
 #include "app/output_folder.hpp"
 #include "core/config_codec.hpp"
@@ -68,8 +71,9 @@ int parse_threads(const std::string& text) {
 std::vector<std::string> options_of(Command command) {
   switch (command) {
     case Command::run: return {"--set", "--output", "--threads", "--resume", "--overwrite", "--quiet"};
-    case Command::check:
-    case Command::show: return {"--set"};
+    case Command::check: return {"--set", "--strict"};
+    case Command::show: return {"--set", "--explain"};
+    case Command::schema: return {"--markdown"};
     default: return {};
   }
 }
@@ -110,10 +114,19 @@ void read_option(const std::string& argument, ArgumentReader& reader, const std:
     if (line.output->empty()) throw InputError("--output must not be empty");
   } else if (option == "--threads") {
     line.run.threads = parse_threads(reader.value(option, attached));
+  } else if (option == "--explain" && has_value) {
+    if (!line.path.empty()) throw InputError("--explain takes a key or a case, not both");
+    line.explain = true;
+    line.path = *attached;
   } else if (has_value) {
     throw InputError(option + " takes no value");
   } else {
-    (option == "--overwrite" ? line.overwrite : option == "--resume" ? line.run.resume : line.run.quiet) = true;
+    const std::pair<const char*, bool*> flags[] = {{"--overwrite", &line.overwrite}, {"--resume", &line.run.resume},
+                                                   {"--quiet", &line.run.quiet},     {"--explain", &line.explain},
+                                                   {"--markdown", &line.markdown},   {"--strict", &line.strict}};
+    for (const auto& [name, value] : flags) {
+      if (option == name) *value = true;
+    }
   }
 }
 
@@ -130,6 +143,17 @@ std::string compiler() {
 std::string version_text() {
   return std::string("quicksand ") + QUICKSAND_VERSION + "\ncompiler " + compiler() + "\nhypre " + hypre_version() +
          "\nHDF5 " + hdf5_version() + "\nthreads " + std::to_string(std::thread::hardware_concurrency()) + "\n";
+}
+
+/// What `show` prints: a case, with explanations or without, or those of a key.
+std::string show(const CommandLine& line) {
+  if (!line.explain) return to_yaml(read_case(line.path, line.settings));
+  if (line.path.empty()) return case_template();
+  std::error_code code;
+  // What looks like a file is taken for one, so that a missing file is told from a misspelt key.
+  const bool is_file = std::filesystem::exists(line.path, code) || line.path.find('/') != std::string::npos ||
+                       line.path.ends_with(".yaml") || line.path.ends_with(".yml");
+  return is_file ? explained_case(read_case(line.path, line.settings)) : explain_key(line.path);
 }
 
 int run(const CommandLine& line, std::ostream& err) {
@@ -172,7 +196,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     }
   }
   if (line.overwrite && line.run.resume) throw InputError("--resume and --overwrite exclude each other");
-  if (command.operand != nullptr && line.path.empty()) {
+  if (command.operand != nullptr && line.path.empty() && !line.explain) {
     throw InputError(std::string("'") + command.name + "' needs " + command.operand + see_help);
   }
   return line;
@@ -185,7 +209,9 @@ std::string usage() {
          "  quicksand run CASE.yaml [options]     run a case\n"
          "  quicksand check CASE.yaml [--set ..]  read and validate a case, print what would run\n"
          "  quicksand show CASE.yaml [--set ..]   print the case with every default filled in\n"
-         "  quicksand schema                      print the JSON Schema of case files\n"
+         "  quicksand show --explain [CASE | KEY] explain a case key by key, a key (time.cfl), or a new case to begin "
+         "with\n"
+         "  quicksand schema [--markdown]         print the JSON Schema of case files, or all keys as a page\n"
          "  quicksand info PATH                   print what a result folder, field file or checkpoint holds\n"
          "  quicksand --version                   print the versions of the program and its libraries\n"
          "  quicksand --help                      print this text\n"
@@ -193,6 +219,8 @@ std::string usage() {
          "options:\n"
          "  --set KEY.PATH=VALUE  replace a value of the case; repeatable, the last one wins\n"
          "                        (--set time.end=1 --set species.0.density=2 --set 'gravity=[0, 0, -9.81]')\n"
+         "  --explain             with comments on every key: meaning, values, default, usual values\n"
+         "  --strict              warnings of check count as bad input\n"
          "  --output DIR          write results to DIR instead of the case's output.directory\n"
          "  --overwrite           replace the results in an output folder that is not empty\n"
          "  --resume              go on from the last checkpoint in the output folder, to the same results\n"
@@ -207,9 +235,9 @@ int execute(const CommandLine& line, std::ostream& out, std::ostream& err) {
   switch (line.command) {
     case Command::help: out << usage(); return 0;
     case Command::version: out << version_text(); return 0;
-    case Command::schema: out << case_schema(); return 0;
+    case Command::schema: out << (line.markdown ? case_reference() : case_schema()); return 0;
     case Command::info: out << result_report(line.path); return 0;
-    case Command::show: out << to_yaml(read_case(line.path, line.settings)); return 0;
+    case Command::show: out << show(line); return 0;
     case Command::run: return run(line, err);
     case Command::check: break;
   }
