@@ -11,6 +11,7 @@
 #include "app/case_config.hpp"
 #include "app/case_reference.hpp"
 #include "app/case_report.hpp"
+#include "app/case_warnings.hpp"
 #include "app/output_folder.hpp"
 #include "core/config_codec.hpp"
 #include "core/errors.hpp"
@@ -162,7 +163,9 @@ int run(const CommandLine& line, std::ostream& err) {
   // A run that goes on may read the case that it left in its folder: it writes the same again.
   if (!line.run.resume) protect_case_file(line.path, config.output.directory);
   if (!line.run.quiet) {
-    for (const std::string& warning : case_warnings(config)) err << "warning: " << warning << "\n";
+    for (const std::string& warning : located_warnings(config, line.path, line.settings)) {
+      err << "warning: " << warning << "\n";
+    }
   }
   if (!line.run.resume) prepare_output_folder(config.output.directory, line.overwrite);
   return run_case(config, line.run);
@@ -243,8 +246,9 @@ int execute(const CommandLine& line, std::ostream& out, std::ostream& err) {
   }
   const CaseConfig config = read_case(line.path, line.settings);
   out << case_report(config);
-  for (const std::string& warning : case_warnings(config)) out << "warning        " << warning << "\n";
-  return 0;
+  const std::vector<std::string> warnings = located_warnings(config, line.path, line.settings);
+  for (const std::string& warning : warnings) out << "warning        " << warning << "\n";
+  return line.strict && !warnings.empty() ? 2 : 0;
 }
 
 }  // namespace quicksand

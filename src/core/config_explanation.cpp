@@ -68,8 +68,8 @@ const ConfigNode& form_of(const ConfigNode& value, const ConfigNode& schema) {
 
 /// Whether a value is written on the line of its key.
 bool is_short(const ConfigNode& value) {
-  return value.kind != ConfigNode::Kind::map &&
-         std::none_of(value.children.begin(), value.children.end(),
+  if (value.kind == ConfigNode::Kind::map) return value.children.empty();
+  return std::none_of(value.children.begin(), value.children.end(),
                       [](const ConfigNode& child) { return child.kind == ConfigNode::Kind::map; });
 }
 
@@ -112,6 +112,8 @@ class Explainer {
     out_ += blanks + child.key + ":";
     if (is_short(child)) {
       out_ += " " + to_yaml_line(child) + "\n";
+      // Of an empty mapping what it may have.
+      if (child.kind == ConfigNode::Kind::map) return write_mapping(child, schema, below, indent + 2);
       const ConfigNode& form = form_of(child, schema);
       if (child.kind != ConfigNode::Kind::list) list_other_forms(form, schema, below, indent + 2);
       if (child.kind == ConfigNode::Kind::list && child.children.empty()) list_items(form, below, indent + 2);

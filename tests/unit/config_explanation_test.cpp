@@ -7,7 +7,7 @@
 
 #include "app/case_codec.hpp"
 #include "app/case_reference.hpp"
-#include "app/case_report.hpp"
+#include "app/case_warnings.hpp"
 #include "config_test_case.hpp"
 #include "core/config_keys.hpp"
 
