@@ -148,7 +148,8 @@ void check_regrid(const CaseConfig& config, const std::vector<Ball>& balls, Read
                                                ": less than a millionth of the grid's length");
     return;
   }
-  if (reading.clean("bubbles") && reading.clean("charges") && first_grid_cells(config) > most_cells) {
+  // Only where all bubbles are known.
+  if (balls.size() == config.bubbles.size() + config.charges.size() && first_grid_cells(config) > most_cells) {
     reading.problem("regrid.bubble_cells", "asks for about " + shortest(std::round(first_grid_cells(config))) +
                                                " cells; at most " + shortest(most_cells));
   }

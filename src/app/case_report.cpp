@@ -13,6 +13,7 @@
 #include "app/initial_bubbles.hpp"
 #include "app/time_control.hpp"
 #include "core/config_node.hpp"
+#include "core/errors.hpp"
 #include "core/snapshot.hpp"
 #include "physics/time_step.hpp"
 
@@ -137,7 +138,11 @@ std::string time_step_text(const CaseConfig& config) {
   if (time.step) return shortest(*time.step) + ", " + brief(std::ceil(time.end / *time.step - 1e-3)) + " steps";
   std::string text = "CFL number " + shortest(*time.cfl) + ", at most " + shortest(*time.max_step);
   if (needed_memory(config) > most_memory_to_build) return text;
-  return text + "; first " + brief(first_step<Dim>(config));
+  try {
+    return text + "; first " + brief(first_step<Dim>(config));
+  } catch (const NumericalError& error) {
+    return text + "; the run can't begin: " + error.what();
+  }
 }
 
 /// A line per stage, and one for the first grid where it is made to fit the bubbles.

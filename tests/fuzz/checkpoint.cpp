@@ -50,6 +50,8 @@ std::string content_of(const fs::path& file) {
 fs::path sound_checkpoint() {
   RunMemory<2> memory = new_memory();
   Flow<2> flow = build_flow<2>(config(), memory.grids.first());
+  memory.statistics.begin_grid("6 x 5", 30, 0);
+  memory.statistics.start(flow.volume());
   const StepReport report = flow.advance(0.01);
   memory.statistics.add(report, flow.volume(), flow.state().time);
   return write_checkpoint<2>(scratch_folder(), config(), true, memory, flow);

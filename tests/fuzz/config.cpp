@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <iostream>
 #include <vector>
 
@@ -10,7 +11,6 @@
 #include "app/case_report.hpp"
 #include "app/case_warnings.hpp"
 #include "core/config_keys.hpp"
-#include "core/config_reader.hpp"
 #include "core/errors.hpp"
 #include "fuzz/fuzz.hpp"
 
@@ -20,12 +20,17 @@ namespace {
 
 /// Larger grids only take longer.
 constexpr long most_axis_cells = 200;
-constexpr double most_cells = 3000;
+constexpr double most_cells = 1000;
 
-/// Whether an axis has more cells than is worth the time.
-bool is_long(const ConfigNode& node) {
-  if (node.key == "cells" && node.text.size() > 3) return true;
-  return std::any_of(node.children.begin(), node.children.end(), is_long);
+/// Whether a text asks for more cells than is worth the time, by the digits that follow the key.
+bool is_long(const std::string& text) {
+  const std::string key = "cells";
+  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
+    const std::size_t begin = text.find_first_of("0123456789\n", at);
+    const std::size_t end = text.find_first_not_of("0123456789", begin);
+    if (begin != std::string::npos && std::min(end, text.size()) - begin > 3) return true;
+  }
+  return false;
 }
 
 bool is_small(const CaseConfig& config) {
@@ -45,19 +50,18 @@ void require(bool holds, const char* what) {
 
 void read_text(const std::string& text) {
   try {
-    if (is_long(parse_yaml(text, "case.yaml").root)) return;
+    if (is_long(text)) return;
     const CaseConfig config = parse_case(text, "case.yaml");
     const std::string shown = to_yaml(config);
     require(to_yaml(parse_case(shown, "shown")) == shown, "the case that is shown reads back to another one");
     require(to_yaml(parse_case(explained_case(config), "explained")) == shown,
             "the case that is explained reads back to another one");
-    if (!is_small(config)) return;
+    // Grids are built for one in eight: that takes longest.
+    if (std::hash<std::string>{}(text) % 8 != 0 || !is_small(config)) return;
     case_report(config);
     case_warnings(config);
   } catch (const InputError& error) {
     require(std::strlen(error.what()) > 0, "no message");
-  } catch (const NumericalError&) {
-    // Of the first step, where values are absurd.
   }
 }
 

@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace quicksand::fuzz {
@@ -82,7 +83,7 @@ std::vector<unsigned char> bytes_of(const Item& item, const std::vector<const ch
   constexpr double limit = 9e18;
   for (std::size_t i = 0; i < std::max<std::size_t>(n, 1); ++i) {
     const double x = value(i);
-    const double finite = x == x ? std::clamp(x, -limit, limit) : 0.0;
+    const double finite = std::isnan(x) ? 0.0 : std::clamp(x, -limit, limit);
     switch (item.type) {
       case ValueType::real: reinterpret_cast<double*>(bytes.data())[i] = x; break;
       case ValueType::integer:
@@ -99,7 +100,8 @@ std::vector<unsigned char> bytes_of(const Item& item, const std::vector<const ch
   }
   if (item.type == ValueType::text) {
     for (std::size_t i = 0; i < item.values.size(); ++i) {
-      bytes[i] = static_cast<unsigned char>(static_cast<std::int64_t>(std::clamp(value(i), -128.0, 255.0)) & 255);
+      const double x = std::isnan(value(i)) ? 0.0 : std::clamp(value(i), -128.0, 255.0);
+      bytes[i] = static_cast<unsigned char>(static_cast<std::int64_t>(x) & 255);
     }
   }
   return bytes;
