@@ -146,7 +146,7 @@ const std::vector<CommandHelp>& command_table() {
        "of "
        "bubbles and charges, and warnings. Of a wrong case all problems are printed at once, each with file, line, "
        "column and key.",
-       {set_option},
+       {set_option, {"--strict", nullptr, "warnings count as bad input"}},
        {"check configs/umd_box/bubble_0295.yaml"}},
       {Command::show,
        "show",
@@ -154,9 +154,14 @@ const std::vector<CommandHelp>& command_table() {
        "a case file",
        true,
        "print the case with every default filled in",
-       "Prints the case with every default filled in, as YAML that runs again.",
-       {set_option},
-       {"show mud.yaml > mud_in_full.yaml"}},
+       "Prints the case with every default filled in, as YAML that runs again. With --explain every key has its "
+       "meaning, "
+       "values, default and usual values as a comment; without a case it prints one to begin with.",
+       {set_option,
+        {"--explain", nullptr,
+         "with comments on every key; in place of the case also a key (time.cfl), or nothing for a case to begin "
+         "with"}},
+       {"show mud.yaml > mud_in_full.yaml", "show --explain time.cfl", "show --explain > new.yaml"}},
       {Command::schema,
        "schema",
        nullptr,
@@ -164,7 +169,7 @@ const std::vector<CommandHelp>& command_table() {
        false,
        "print the JSON Schema of case files",
        "Prints the JSON Schema (draft 2020-12) of case files, from which editors complete and check keys.",
-       {},
+       {{"--markdown", nullptr, "all keys as a page in place of the schema"}},
        {"schema > case.schema.json"}},
       {Command::info,
        "info",

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <ostream>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "app/case_config.hpp"
+#include "app/case_reference.hpp"
 #include "app/case_report.hpp"
+#include "app/case_warnings.hpp"
 #include "app/output_folder.hpp"
 #include "core/config_codec.hpp"
 #include "core/errors.hpp"
@@ -82,10 +86,19 @@ void read_option(const std::string& argument, ArgumentReader& reader, const Comm
     if (line.output->empty()) throw InputError("--output must not be empty");
   } else if (option == "--threads") {
     line.run.threads = parse_threads(reader.value(option, attached));
+  } else if (option == "--explain" && has_value) {
+    if (!line.path.empty()) throw InputError("--explain takes a key or a case, not both");
+    line.explain = true;
+    line.path = *attached;
   } else if (has_value) {
     throw InputError(option + " takes no value");
   } else {
-    (option == "--overwrite" ? line.overwrite : option == "--resume" ? line.run.resume : line.run.quiet) = true;
+    const std::pair<const char*, bool*> flags[] = {{"--overwrite", &line.overwrite}, {"--resume", &line.run.resume},
+                                                   {"--quiet", &line.run.quiet},     {"--explain", &line.explain},
+                                                   {"--markdown", &line.markdown},   {"--strict", &line.strict}};
+    for (const auto& [name, value] : flags) {
+      if (option == name) *value = true;
+    }
   }
 }
 
@@ -104,13 +117,26 @@ std::string version_text() {
          "\nHDF5 " + hdf5_version() + "\nthreads " + std::to_string(std::thread::hardware_concurrency()) + "\n";
 }
 
+/// What `show` prints: a case, with explanations or without, or those of a key.
+std::string show(const CommandLine& line) {
+  if (!line.explain) return to_yaml(read_case(line.path, line.settings));
+  if (line.path.empty()) return case_template();
+  std::error_code code;
+  // What looks like a file is taken for one, so that a missing file is told from a misspelt key.
+  const bool is_file = std::filesystem::exists(line.path, code) || line.path.find('/') != std::string::npos ||
+                       line.path.ends_with(".yaml") || line.path.ends_with(".yml");
+  return is_file ? explained_case(read_case(line.path, line.settings)) : explain_key(line.path);
+}
+
 int run(const CommandLine& line, std::ostream& err) {
   CaseConfig config = read_case(line.path, line.settings);
   if (line.output) config.output.directory = *line.output;
   // A run that goes on may read the case that it left in its folder: it writes the same again.
   if (!line.run.resume) protect_case_file(line.path, config.output.directory);
   if (!line.run.quiet) {
-    for (const std::string& warning : case_warnings(config)) err << "warning: " << warning << "\n";
+    for (const std::string& warning : located_warnings(config, line.path, line.settings)) {
+      err << "warning: " << warning << "\n";
+    }
   }
   if (!line.run.resume) prepare_output_folder(config.output.directory, line.overwrite);
   return run_case(config, line.run);
@@ -145,7 +171,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     }
   }
   if (line.overwrite && line.run.resume) throw InputError("--resume and --overwrite exclude each other");
-  if (command.operand_required && line.path.empty()) {
+  if (command.operand_required && line.path.empty() && !line.explain) {
     throw InputError(std::string("'") + command.name + "' needs " + command.operand_meaning + see_help);
   }
   if (line.command == Command::help && !line.path.empty()) find_command(line.path);
@@ -157,16 +183,17 @@ int execute(const CommandLine& line, std::ostream& out, std::ostream& err) {
     case Command::help: out << (line.path.empty() ? general_help() : command_help(find_command(line.path))); return 0;
     case Command::manual: out << manual_page(); return 0;
     case Command::version: out << version_text(); return 0;
-    case Command::schema: out << case_schema(); return 0;
+    case Command::schema: out << (line.markdown ? case_reference() : case_schema()); return 0;
     case Command::info: out << result_report(line.path); return 0;
-    case Command::show: out << to_yaml(read_case(line.path, line.settings)); return 0;
+    case Command::show: out << show(line); return 0;
     case Command::run: return run(line, err);
     case Command::check: break;
   }
   const CaseConfig config = read_case(line.path, line.settings);
   out << case_report(config);
-  for (const std::string& warning : case_warnings(config)) out << "warning        " << warning << "\n";
-  return 0;
+  const std::vector<std::string> warnings = located_warnings(config, line.path, line.settings);
+  for (const std::string& warning : warnings) out << "warning        " << warning << "\n";
+  return line.strict && !warnings.empty() ? 2 : 0;
 }
 
 }  // namespace quicksand

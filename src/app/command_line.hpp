@@ -17,6 +17,9 @@ struct CommandLine {
   std::string path;                   ///< case file, for info a result folder or field file, for help a command
   std::vector<std::string> settings;  ///< of --set, in order
   std::optional<std::string> output;  ///< folder of the results instead of the case's
+  bool explain = false;               ///< show with comments on every key, or a key in place of a case
+  bool markdown = false;              ///< the schema as a page of reference
+  bool strict = false;                ///< warnings of check count as bad input
   bool overwrite = false;             ///< replace results in the output folder
   RunOptions run;
 };
