@@ -1,6 +1,6 @@
 # Language standard, optimization and warnings.
 #
-# quicksand_options   everything that shapes the generated code; all targets get it
+# quicksand_options   everything that shapes the generated code; all targets get it, those of users of the libraries too
 # quicksand_warnings  warnings; private to our own targets
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -19,6 +19,7 @@ option(QUICKSAND_WERROR "Warnings are errors (by default with the compilers the 
 set(QUICKSAND_SANITIZE "" CACHE STRING "Sanitizers, such as address,undefined or thread")
 
 add_library(quicksand_options INTERFACE)
+set_target_properties(quicksand_options PROPERTIES EXPORT_NAME options)
 # -ffp-contract=off: a*b + c*d fused into one multiply-add rounds its two products differently, so that mirror images would
 # no longer stay mirror images and results would depend on what a compiler happens to fuse. The loops are bound by memory.
 # -fno-math-errno, -fno-trapping-math: let loops with sqrt and comparisons become vectors; values stay the same.

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/grid_checks.hpp"
+#include "app/grid_sequence.hpp"
 #include "app/initial_bubbles.hpp"
 #include "app/shape_checks.hpp"
 #include "core/errors.hpp"
@@ -18,6 +20,9 @@ constexpr double rounding = 1e-9;
 
 /// Gaps below this part of a bubble's radius count as none.
 constexpr double touching = 1e-6;
+
+/// Most cells of a refined grid along an axis, if all had the width around the bubbles.
+constexpr double most_widths = 1e6;
 
 /// Points across a ball, per axis, at which it is looked for liquid.
 constexpr int samples = 21;
@@ -128,6 +133,28 @@ std::optional<SphereShape> check_charge(const CaseConfig& config, const InitialC
   }
 }
 
+/// Notes grids around the bubbles that no machine could hold.
+void check_regrid(const CaseConfig& config, const std::vector<Ball>& balls, Reading& reading) {
+  if (!config.regrid || balls.empty() || !reading.clean("regrid")) return;
+  const auto smallest = std::min_element(balls.begin(), balls.end(),
+                                         [](const Ball& a, const Ball& b) { return a.shape.radius < b.shape.radius; });
+  const double width = smallest->shape.radius / config.regrid->bubble_cells;
+  const Extent domain = domain_of(config.grid);
+  const Geometry geometry = geometry_of(config.grid);
+  for (int d = 0; d < 3; ++d) {
+    if (skips(d, geometry) || (domain.high[d] - domain.low[d]) / width <= most_widths) continue;
+    reading.problem("regrid.bubble_cells", "asks for cells of " + shortest(width) + ", a part of the radius " +
+                                               shortest(smallest->shape.radius) + " of " + smallest->path +
+                                               ": less than a millionth of the grid's length");
+    return;
+  }
+  // Only where all bubbles are known.
+  if (balls.size() == config.bubbles.size() + config.charges.size() && first_grid_cells(config) > most_cells) {
+    reading.problem("regrid.bubble_cells", "asks for about " + shortest(std::round(first_grid_cells(config))) +
+                                               " cells; at most " + shortest(most_cells));
+  }
+}
+
 /// The bubbles, and the first bubbles of charges, whose middles and sizes are in order.
 std::vector<Ball> find_balls(const CaseConfig& config, Reading& reading) {
   std::vector<Ball> balls;
@@ -174,6 +201,7 @@ void check_bubbles(const CaseConfig& config, Reading& reading) {
                       "overlaps " + balls[j].path + " (" + to_string(reading.nearest(balls[j].path).place) + ")");
     }
   }
+  check_regrid(config, balls, reading);
 }
 
 }  // namespace quicksand

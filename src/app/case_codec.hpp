@@ -9,6 +9,12 @@ namespace quicksand {
 /// How a whole case is read, written and described.
 const Codec<CaseConfig>& case_codec();
 
+/// How a species is read, written and described.
+Codec<Species> species_codec();
+
+/// How the sides of the domain are read, written and described.
+Codec<Boundaries> boundaries_codec();
+
 /// How the section on outputs is read, written and described.
 Codec<OutputSettings> output_codec();
 

@@ -5,6 +5,7 @@
 
 #include "app/case_codec.hpp"
 #include "core/config_reader.hpp"
+#include "core/config_schema.hpp"
 #include "core/errors.hpp"
 
 namespace quicksand {
@@ -45,7 +46,8 @@ std::string case_schema() {
   ConfigNode schema = make_map();
   schema.add("$schema", make_text("https://json-schema.org/draft/2020-12/schema"));
   schema.add("title", make_text("Quicksand case"));
-  for (const ConfigNode& entry : case_codec().schema.children) schema.add(entry.key, entry);
+  const ConfigNode plain = plain_schema(case_codec().schema);
+  for (const ConfigNode& entry : plain.children) schema.add(entry.key, entry);
   return to_json(schema).text();
 }
 

@@ -1,7 +1,5 @@
 #include "app/case_report.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -10,10 +8,12 @@
 #include <sstream>
 
 #include "app/build_flow.hpp"
+#include "app/case_start.hpp"
 #include "app/grid_sequence.hpp"
 #include "app/initial_bubbles.hpp"
 #include "app/time_control.hpp"
 #include "core/config_node.hpp"
+#include "core/errors.hpp"
 #include "core/snapshot.hpp"
 #include "physics/time_step.hpp"
 
@@ -21,23 +21,8 @@ namespace quicksand {
 
 namespace {
 
-/// Estimate of the doubles that a run holds per cell, solver hierarchies included: a base, per axis and per species.
-constexpr double base_fields = 60;
-constexpr double fields_per_axis = 30;
-constexpr double fields_per_species = 10;
-
 /// Megabytes of a case up to which its flow is built to find the first step; larger ones take too long.
 constexpr double most_memory_to_build = 500;
-
-/// Cells between liquid and an open side below which a case is suspect.
-constexpr int least_air_cells = 2;
-
-/// Short text of a number for reading, with four digits.
-std::string brief(double value) {
-  std::ostringstream out;
-  out << std::setprecision(4) << value;
-  return out.str();
-}
 
 std::string law_text(const Law& law) {
   struct Printer {
@@ -93,36 +78,6 @@ std::string charges_text(const CaseConfig& config) {
   return out.str();
 }
 
-template <int Dim>
-struct InitialState {
-  Grid<Dim> grid;
-  std::vector<double> volumes;  ///< per fill
-  CellField liquid;             ///< sum of fractions
-};
-
-/// The start on the first grid of the run.
-template <int Dim>
-InitialState<Dim> fill_cells(const CaseConfig& config) {
-  Grid<Dim> grid = GridSequence<Dim>(config).first().grid;
-  InitialState<Dim> state{std::move(grid), {}, {}};
-  state.liquid = CellField(state.grid.layout());
-  const Box<Dim> cells = state.grid.cells();
-  const std::vector<InitialBubble> bubbles = initial_bubbles(config);
-  for (const InitialFill& fill : config.initial) {
-    CellField phi(state.grid.layout());
-    for_each_indexed<Cell>(state.grid.layout(), cells, [&](Cell c, const Index<Dim>& i) {
-      phi[c] = fraction(fill.shape, state.grid, i);
-      for (const InitialBubble& bubble : bubbles) {
-        phi[c] *= 1 - fraction(SphereShape{bubble.center, bubble.radius}, state.grid, i);
-      }
-      state.liquid[c] += phi[c];
-    });
-    state.volumes.push_back(
-        sum<Cell>(state.grid.layout(), cells, [&](Cell c) { return phi[c] * state.grid.volume(c); }));
-  }
-  return state;
-}
-
 std::string cells_text(const std::vector<long>& cells) {
   std::string text;
   long product = 1;
@@ -142,30 +97,6 @@ double smallest_width(const GridConfig& grid) {
   }
   return smallest;
 }
-
-/// Estimate of the megabytes that a run needs.
-double needed_memory(const CaseConfig& config) {
-  double most_cells = 0;
-  const auto count = [&](const GridConfig& grid) {
-    double cells = 1;
-    for (const long n : axis_cells(grid)) cells *= static_cast<double>(n + 2 * ghosts);
-    most_cells = std::max(most_cells, cells);
-  };
-  count(config.grid);
-  for (const StageConfig& stage : config.stages) count(grid_of(config, stage));
-  const double fields = base_fields + fields_per_axis * config.grid.dimension +
-                        fields_per_species * static_cast<double>(config.species.size());
-  // On its way from one grid to the next a flow is there twice.
-  const double flows = config.stages.empty() && !config.regrid ? 1 : 2;
-  return flows * fields * sizeof(double) * most_cells / 1e6;
-}
-
-double machine_memory() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 1e6;
-}
-
-/// Whether a grid of the case may be allocated.
-bool fits(const CaseConfig& config) { return needed_memory(config) <= machine_memory(); }
 
 /// Volume over one radian to that of the whole body of revolution.
 double full_turn(const GridConfig& grid) { return grid.geometry == Geometry::axisymmetric ? 2 * std::numbers::pi : 1; }
@@ -207,7 +138,11 @@ std::string time_step_text(const CaseConfig& config) {
   if (time.step) return shortest(*time.step) + ", " + brief(std::ceil(time.end / *time.step - 1e-3)) + " steps";
   std::string text = "CFL number " + shortest(*time.cfl) + ", at most " + shortest(*time.max_step);
   if (needed_memory(config) > most_memory_to_build) return text;
-  return text + "; first " + brief(first_step<Dim>(config));
+  try {
+    return text + "; first " + brief(first_step<Dim>(config));
+  } catch (const NumericalError& error) {
+    return text + "; the run can't begin: " + error.what();
+  }
 }
 
 /// A line per stage, and one for the first grid where it is made to fit the bubbles.
@@ -244,90 +179,10 @@ std::string report(const CaseConfig& config) {
   return out.str();
 }
 
-/// Whether liquid begins within a few cells of a side.
-template <int Dim>
-bool liquid_near(const InitialState<Dim>& state, int d, int side) {
-  Box<Dim> layer = state.grid.cells();
-  if (side == 0) {
-    layer.hi[d] = std::min(layer.hi[d], least_air_cells);
-  } else {
-    layer.lo[d] = std::max(layer.lo[d], layer.hi[d] - least_air_cells);
-  }
-  return maximum<Cell>(state.grid.layout(), layer, 0.0, [&](Cell c) { return state.liquid[c]; }) > 0;
-}
-
-/// Bubbles of a radius of fewer cells are not resolved.
-constexpr int least_bubble_cells = 4;
-
-/// Width of the widest cell along any axis that a bubble's middle lies in or beside.
-template <int Dim>
-double width_around(const Grid<Dim>& grid, const InitialBubble& bubble) {
-  const Vec<Dim> center = in_axes<Dim>(bubble.center);
-  double widest = 0;
-  for (int d = 0; d < Dim; ++d) {
-    int i = 0;
-    while (i + 1 < grid.owned_cells()[d] && grid.face_position(d, i + 1) < center[d]) ++i;
-    widest = std::max(widest, grid.width_1d(d, i));
-  }
-  return widest;
-}
-
-template <int Dim>
-std::vector<std::string> bubble_warnings(const CaseConfig& config, const Grid<Dim>& grid) {
-  std::vector<std::string> found;
-  const std::vector<InitialBubble> bubbles = initial_bubbles(config);
-  for (std::size_t i = 0; i < bubbles.size(); ++i) {
-    const double cells = bubbles[i].radius / width_around(grid, bubbles[i]);
-    if (cells >= least_bubble_cells) continue;
-    const std::size_t given = config.bubbles.size();
-    const std::string path = i < given ? child_path("bubbles", i) : child_path("charges", i - given);
-    found.push_back(path + ": the " + (i < given ? "" : "minimum ") + "radius is " + brief(cells) +
-                    " cells; fewer than " + std::to_string(least_bubble_cells) + " do not resolve it");
-  }
-  return found;
-}
-
-template <int Dim>
-std::vector<std::string> warnings(const CaseConfig& config) {
-  if (!fits(config)) {
-    return {"the run needs about " + brief(needed_memory(config)) + " MB of memory, and this machine has " +
-            brief(machine_memory()) + " MB"};
-  }
-  std::vector<std::string> found;
-  const InitialState<Dim> state = fill_cells<Dim>(config);
-  for (std::size_t i = 0; i < config.initial.size(); ++i) {
-    if (state.volumes[i] <= 0)
-      found.push_back("initial[" + std::to_string(i) + "]: the shape fills nothing of the grid");
-  }
-  for (const Species& species : config.species) {
-    const bool used = std::any_of(config.initial.begin(), config.initial.end(),
-                                  [&](const InitialFill& fill) { return fill.fill == species.name; });
-    if (!used) found.push_back("species " + species.name + " is not present at the start");
-  }
-  for (std::string& text : bubble_warnings(config, state.grid)) found.push_back(std::move(text));
-  const Sides<Dim> sides = make_sides<Dim>(config);
-  const char* axes = Dim == 3 ? "xyz" : "xz";
-  for (int d = 0; d < Dim; ++d) {
-    for (int s = 0; s < 2; ++s) {
-      if (!is_open(sides.at(d, s)) || sides.at(d, s).outside) continue;
-      const std::string name = std::string(1, axes[d]) + (s == 0 ? "_min" : "_max");
-      if (liquid_near(state, d, s)) {
-        found.push_back("liquid begins less than " + std::to_string(least_air_cells) + " cells from the open side " +
-                        name);
-      }
-    }
-  }
-  return found;
-}
-
 }  // namespace
 
 std::string case_report(const CaseConfig& config) {
   return config.grid.dimension == 3 ? report<3>(config) : report<2>(config);
-}
-
-std::vector<std::string> case_warnings(const CaseConfig& config) {
-  return config.grid.dimension == 3 ? warnings<3>(config) : warnings<2>(config);
 }
 
 }  // namespace quicksand

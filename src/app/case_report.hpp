@@ -2,7 +2,6 @@
 /// \file
 /// What `quicksand check` and `quicksand info` print.
 #include <string>
-#include <vector>
 
 #include "app/case_config.hpp"
 
@@ -10,9 +9,6 @@ namespace quicksand {
 
 /// A case in numbers: grid, memory, species and their volumes, time steps, output.
 std::string case_report(const CaseConfig& config);
-
-/// Things in a case that are allowed but probably not meant.
-std::vector<std::string> case_warnings(const CaseConfig& config);
 
 /// What a result folder or a field file holds.
 /// \throws FileError if there is none

@@ -6,18 +6,20 @@
 #include <string>
 #include <vector>
 
+#include "app/command_help.hpp"
 #include "app/run.hpp"
 
 namespace quicksand {
 
-enum class Command { run, check, show, schema, info, version, help };
-
 /// What the user asked for.
 struct CommandLine {
   Command command = Command::help;
-  std::string path;                   ///< case file, or for info a result folder or field file
+  std::string path;                   ///< case file, for info a result folder or field file, for help a command
   std::vector<std::string> settings;  ///< of --set, in order
   std::optional<std::string> output;  ///< folder of the results instead of the case's
+  bool explain = false;               ///< show with comments on every key, or a key in place of a case
+  bool markdown = false;              ///< the schema as a page of reference
+  bool strict = false;                ///< warnings of check count as bad input
   bool overwrite = false;             ///< replace results in the output folder
   RunOptions run;
 };
@@ -25,9 +27,6 @@ struct CommandLine {
 /// Reads the arguments after the program's name.
 /// \throws InputError on unknown commands and options, naming the nearest one
 CommandLine parse_command_line(const std::vector<std::string>& arguments);
-
-/// The help text.
-std::string usage();
 
 /// Does what the user asked for; text goes to `out`, warnings to `err`.
 /// \return exit code of the program

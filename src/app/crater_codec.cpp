@@ -8,11 +8,11 @@ namespace quicksand {
 Codec<CraterSettings> crater_codec() {
   return object<CraterSettings>({
       required("species", &CraterSettings::species, one_or_list_of(identifier()),
-               "species that the bed is made of, or a list of them"),
+               {"species that the bed is made of, or a list of them", "", {"sand"}}),
       maybe("level", &CraterSettings::level, quantity(dimension::length),
-            "z of the undisturbed bed; absent: the median height of the initial bed"),
+            {"z of the undisturbed bed; absent: the median height of the initial bed", "absent", {"-3 in"}}),
       maybe("every", &CraterSettings::every, quantity(dimension::time, positive),
-            "interval; absent: whenever fields are written"),
+            {"interval; absent: whenever fields are written", "absent, or less for histories", {"1 ms"}}),
   });
 }
 

@@ -8,8 +8,8 @@ namespace quicksand {
 
 namespace {
 
-/// Most cells of a grid: beyond this no machine that this is meant for could hold the fields.
-constexpr double most_cells = 2e9;
+/// Most cells along an axis.
+constexpr double most_axis_cells = 1e6;
 
 void check_axis(const std::vector<AxisSegment>& segments, const std::string& path, Reading& reading) {
   if (segments.empty() || !reading.clean(path)) return;
@@ -31,6 +31,11 @@ void check_axis(const std::vector<AxisSegment>& segments, const std::string& pat
       reading.problem(place + ".to", "must be greater than from = " + shortest(from) + ", not " + shortest(segment.to));
     }
     before = segment.to;
+  }
+  double cells = 0;
+  for (const AxisSegment& segment : segments) cells += segment.cells;
+  if (cells > most_axis_cells) {
+    reading.problem(path, "has " + shortest(cells) + " cells; at most " + shortest(most_axis_cells));
   }
   if (!reading.clean(path)) return;
   try {

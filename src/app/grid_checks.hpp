@@ -6,6 +6,9 @@
 
 namespace quicksand {
 
+/// Most cells of a grid: beyond this no machine that this is meant for could hold the fields.
+inline constexpr double most_cells = 2e9;
+
 /// Notes what is wrong with the case's grid.
 void check_grid(const GridConfig& grid, Reading& reading);
 

@@ -8,14 +8,22 @@ namespace dim = dimension;
 
 Codec<std::vector<AxisSegment>> axis_codec() {
   const auto stretch = choice<Stretch>({{"uniform", Stretch::uniform}, {"smooth", Stretch::smooth}});
-  return one_or_list_of(object<AxisSegment>({
-      maybe("from", &AxisSegment::from, quantity(dim::length), "where the segment begins"),
-      required("to", &AxisSegment::to, quantity(dim::length), "where the segment ends"),
-      required("cells", &AxisSegment::cells, whole_number(1, 1000000), "number of cells of the segment"),
-      defaulted(
-          "stretch", &AxisSegment::stretch, stretch,
-          "uniform: equal widths; smooth: geometric progression from the width of the neighbouring segment's cells"),
-  }));
+  return named(
+      "axis",
+      one_or_list_of(object<AxisSegment>({
+          maybe(
+              "from", &AxisSegment::from, quantity(dim::length),
+              {"where the segment begins; required in the first, in others the end of the segment before", "0", {"0"}}),
+          required("to", &AxisSegment::to, quantity(dim::length),
+                   {"where the segment ends", "walls and open sides a few sizes of the flow away", {"2 m"}}),
+          required("cells", &AxisSegment::cells, whole_number(1, 1000000),
+                   {"number of cells of the segment",
+                    "32 to 256 across the flow; twice as many cost 8 times (2-D) or 16 times (3-D) as much",
+                    {"64"}}),
+          defaulted("stretch", &AxisSegment::stretch, stretch,
+                    "uniform: equal widths; smooth: geometric progression from the width of the neighbouring segment's "
+                    "cells"),
+      })));
 }
 
 }  // namespace
@@ -40,7 +48,8 @@ Codec<StageConfig> stage_codec() {
       required("z", &StageConfig::Axes::z, axis, "vertical axis, with the ends of grid.z"),
   });
   return object<StageConfig>({
-      required("until", &StageConfig::until, quantity(dim::time, positive), "when the next stage begins"),
+      required("until", &StageConfig::until, quantity(dim::time, positive),
+               {"when the flow moves on to the next stage's grid", "", {"15 ms"}}),
       required("grid", &StageConfig::grid, axes, "the axes of this stage"),
   });
 }
@@ -48,7 +57,9 @@ Codec<StageConfig> stage_codec() {
 Codec<RegridConfig> regrid_codec() {
   return object<RegridConfig>({
       required("bubble_cells", &RegridConfig::bubble_cells, whole_number(4, 1000),
-               "least number of cells on a bubble's radius while it grows from its first size; 8 is a good choice"),
+               {"least number of cells on the radius of the smallest bubble while bubbles grow from their first size",
+                "8",
+                {"8"}}),
   });
 }
 

@@ -95,6 +95,31 @@ double widest(const std::vector<double>& faces, double low, double high) {
 
 }  // namespace
 
+double first_grid_cells(const CaseConfig& config) {
+  if (!config.regrid || count_bubbles(config) == 0) return 0;
+  double smallest = std::numeric_limits<double>::infinity();
+  double largest = 0;
+  const Extent domain = domain_of(config.grid);
+  Extent around{domain.high, domain.low};
+  for (const InitialBubble& bubble : initial_bubbles(config)) {
+    smallest = std::min(smallest, bubble.radius);
+    largest = std::max(largest, bubble.radius);
+    for (int d = 0; d < 3; ++d) {
+      around.low[d] = std::min(around.low[d], bubble.center[d] - bubble.radius);
+      around.high[d] = std::max(around.high[d], bubble.center[d] + bubble.radius);
+    }
+  }
+  const std::vector<long> given = axis_cells(config.grid);
+  double cells = 1;
+  for (std::size_t a = 0; a < given.size(); ++a) {
+    const int d = a + 1 == given.size() ? 2 : static_cast<int>(a);
+    const double block = std::min(domain.high[d], around.high[d] + room * largest) -
+                         std::max(domain.low[d], around.low[d] - room * largest);
+    cells *= static_cast<double>(given[a]) + std::max(0.0, block) * config.regrid->bubble_cells / smallest;
+  }
+  return cells;
+}
+
 template <int Dim>
 GridSequence<Dim>::GridSequence(const CaseConfig& config)
     : config_(config), sides_(make_sides<Dim>(config)), following_(config.regrid && count_bubbles(config) > 0) {}

@@ -14,6 +14,9 @@ struct Region {
   Vec<Dim> low, high;
 };
 
+/// About how many cells the first grid of a case has that `regrid` refines around its bubbles; 0 without such.
+double first_grid_cells(const CaseConfig& config);
+
 /// The grids of a case in turn: those of its stages, then its own. With `regrid` they are refined around the
 /// bubbles of the start until these have grown large enough for one of them (and not again when they collapse): a block
 /// of fine cells reaches some radii beyond them, and when they have grown close to its edge a new block with wider

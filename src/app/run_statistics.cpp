@@ -83,6 +83,7 @@ void RunStatistics::carry_grids(Archive& archive) {
     carry_numbers(archive, name + "/seconds", grids_[i].seconds);
   }
   carry(archive, "statistics/cell_steps", cell_steps_);
+  if (grids_.empty()) archive.refuse("statistics/grid/cells", "no grid that the run was on");
 }
 
 void RunStatistics::exchange(Archive& archive) {

@@ -3,20 +3,16 @@
 #include <string_view>
 
 #include "core/errors.hpp"
-#include "core/seal.hpp"
 
 namespace quicksand {
 
 namespace {
 
-/// The version grows when the names or meanings of what is stored change.
-const SealedFormat format{"quicksand checkpoint", 1};
-
 /// Enough to shrink the many zeros of empty cells.
 constexpr int compression = 1;
 
 const std::filesystem::path& checked(const std::filesystem::path& path) {
-  check_seal(path, format);
+  check_seal(path, checkpoint_format);
   return path;
 }
 
@@ -43,7 +39,7 @@ void CheckpointWriter::exchange(const std::string& name, std::string& text) {
 void CheckpointWriter::refuse(const std::string& name, const std::string& why) const { refuse_value(path_, name, why); }
 
 void CheckpointWriter::commit() {
-  file_.commit([](std::string_view content) { return make_seal(format, content); });
+  file_.commit([](std::string_view content) { return make_seal(checkpoint_format, content); });
 }
 
 CheckpointReader::CheckpointReader(const std::filesystem::path& path) : file_(checked(path)) {}

@@ -8,8 +8,12 @@
 
 #include "core/archive.hpp"
 #include "core/hdf5_file.hpp"
+#include "core/seal.hpp"
 
 namespace quicksand {
+
+/// The version grows when the names or meanings of what is stored change.
+inline const SealedFormat checkpoint_format{"quicksand checkpoint", 1};
 
 /// Writes a checkpoint, which appears under its name with commit(). All functions throw FileError.
 class CheckpointWriter final : public Archive {

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <system_error>
 
+#include "core/config_schema.hpp"
 #include "core/errors.hpp"
 
 namespace quicksand {
@@ -13,7 +14,11 @@ namespace {
 
 using Kind = ConfigNode::Kind;
 
-/// Smallest number of inserted, deleted, replaced or swapped neighbouring letters between two words.
+bool same_letter(char a, char b) {
+  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+}
+
+/// Smallest number of inserted, deleted, replaced or swapped neighbouring letters between two words, large or small.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) {
@@ -22,8 +27,9 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
         d[i][j] = i + j;
         continue;
       }
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
-      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      d[i][j] =
+          std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (same_letter(a[i - 1], b[j - 1]) ? 0u : 1u)});
+      const bool swapped = i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) && same_letter(a[i - 2], b[j - 1]);
       if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
     }
   }
@@ -37,19 +43,6 @@ std::string allowed_range(const Range& range) {
   if (low) text += (range.low_excluded ? "greater than " : "at least ") + shortest(range.low);
   if (high) text += (low ? " and at most " : "at most ") + shortest(range.high);
   return text;
-}
-
-void limit_schema(ConfigNode& schema, const Range& range) {
-  if (range.low > any_number.low) {
-    schema.add(range.low_excluded ? "exclusiveMinimum" : "minimum", make_number(range.low));
-  }
-  if (range.high < any_number.high) schema.add("maximum", make_number(range.high));
-}
-
-ConfigNode typed_schema(const std::string& type) {
-  ConfigNode schema = make_map();
-  schema.add("type", make_text(type));
-  return schema;
 }
 
 /// Whether a path is another one or leads to something within it.
@@ -97,6 +90,8 @@ std::string join(const std::vector<std::string>& words) {
 }
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  constexpr std::size_t longest = 64;
+  if (word.size() > longest) return "";
   std::size_t least = 1 + word.size() / 3;
   std::string nearest;
   for (const std::string& candidate : known) {
@@ -124,10 +119,7 @@ Codec<double> quantity(const Dimension& dimension, const Range& range) {
     }
   };
   codec.write = [](const double& value) { return make_number(value); };
-  codec.schema = make_map();
-  codec.schema.add("type", dimension == dimension::none ? make_text("number")
-                                                        : make_list({make_text("number"), make_text("string")}));
-  limit_schema(codec.schema, range);
+  codec.schema = detail::quantity_schema(dimension, range);
   return codec;
 }
 
@@ -151,7 +143,7 @@ Codec<int> whole_number(int least, int most) {
     }
   };
   codec.write = [](const int& value) { return make_integer(value); };
-  codec.schema = typed_schema("integer");
+  codec.schema = detail::typed_schema("integer");
   codec.schema.add("minimum", make_integer(least));
   if (most < std::numeric_limits<int>::max()) codec.schema.add("maximum", make_integer(most));
   return codec;
@@ -169,7 +161,7 @@ Codec<bool> flag() {
     }
   };
   codec.write = [](const bool& value) { return make_flag(value); };
-  codec.schema = typed_schema("boolean");
+  codec.schema = detail::typed_schema("boolean");
   return codec;
 }
 
@@ -185,7 +177,7 @@ Codec<std::string> text() {
     }
   };
   codec.write = [](const std::string& value) { return make_text(value); };
-  codec.schema = typed_schema("string");
+  codec.schema = detail::typed_schema("string");
   codec.schema.add("minLength", make_integer(1));
   return codec;
 }
@@ -205,6 +197,7 @@ Codec<std::string> identifier() {
     }
   };
   codec.schema.add("pattern", make_text("^[A-Za-z_][A-Za-z0-9_]*$"));
+  codec.schema.add(schema_value, make_text("name of letters, digits and _"));
   return codec;
 }
 
@@ -232,6 +225,7 @@ Codec<Vec<3>> vector_of(const Dimension& dimension) {
   codec.write = [](const Vec<3>& v) { return make_list({make_number(v[0]), make_number(v[1]), make_number(v[2])}); };
   codec.schema = detail::list_schema(component.schema, 2);
   codec.schema.add("maxItems", make_integer(3));
+  codec.schema.add(schema_value, make_text("vector [x, z] or [x, y, z], " + quantity_in_si(dimension)));
   return codec;
 }
 
@@ -261,50 +255,13 @@ void unknown_key(Reading& reading, const ConfigNode& entry, const std::vector<st
   reading.key_problem(entry, "unknown key" + where + suggestion(entry.key, allowed) + list);
 }
 
-void missing_key(Reading& reading, const ConfigNode& map, const std::string& name, const std::string& help) {
-  reading.problem(child_path(map.path, name), "is required but missing: " + help);
+void missing_key(Reading& reading, const ConfigNode& map, const std::string& name, const std::string& meaning) {
+  reading.problem(child_path(map.path, name), "is required but missing: " + meaning);
 }
 
 void wrong_word(Reading& reading, const ConfigNode& node, const std::vector<std::string>& allowed) {
   const std::string near = node.kind == Kind::scalar ? suggestion(node.text, allowed) : "";
   reading.problem(node, "must be one of " + join(allowed) + ", not " + kind_name(node) + near);
-}
-
-ConfigNode object_schema() {
-  ConfigNode schema = typed_schema("object");
-  schema.add("properties", make_map());
-  schema.add("required", make_list());
-  schema.add("additionalProperties", make_flag(false));
-  return schema;
-}
-
-void add_property(ConfigNode& object, const std::string& name, const std::string& help, bool required,
-                  ConfigNode schema, const std::optional<ConfigNode>& standard) {
-  schema.add("description", make_text(help));
-  if (standard) schema.add("default", *standard);
-  object.find("properties")->add(name, std::move(schema));
-  if (required) object.find("required")->children.push_back(make_text(name));
-}
-
-ConfigNode list_schema(ConfigNode item, std::size_t least) {
-  ConfigNode schema = typed_schema("array");
-  schema.add("items", std::move(item));
-  if (least > 0) schema.add("minItems", make_integer(static_cast<long long>(least)));
-  return schema;
-}
-
-ConfigNode words_schema(const std::vector<std::string>& words) {
-  ConfigNode schema = make_map();
-  ConfigNode list = make_list();
-  for (const std::string& word : words) list.children.push_back(make_text(word));
-  schema.add("enum", std::move(list));
-  return schema;
-}
-
-ConfigNode one_of(std::vector<ConfigNode> alternatives) {
-  ConfigNode schema = make_map();
-  schema.add("oneOf", make_list(std::move(alternatives)));
-  return schema;
 }
 
 }  // namespace detail

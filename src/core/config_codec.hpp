@@ -48,6 +48,16 @@ class Reading {
   std::vector<ConfigProblem> problems_;
 };
 
+/// What a key means: for messages, the schema, explanations and the reference.
+struct KeyHelp {
+  KeyHelp(const char* what, const char* usual = "", const std::vector<const char*>& written = {})
+      : meaning(what), typical(usual), examples(written.begin(), written.end()) {}
+
+  std::string meaning;                ///< one sentence without a full stop
+  std::string typical;                ///< usual values and how to choose one; may be empty
+  std::vector<std::string> examples;  ///< values as they are written in YAML
+};
+
 /// How a T is read (noting problems and leaving the value where it is wrong), written and described.
 template <class T>
 struct Codec {
@@ -92,7 +102,7 @@ namespace detail {
 template <class S>
 struct MemberOf {
   std::string name;
-  std::string help;
+  KeyHelp help;
   bool required = false;
   std::function<void(Reading&, const ConfigNode&, S&)> read;
   std::function<std::optional<ConfigNode>(const S&)> write;
@@ -103,13 +113,14 @@ bool expect(Reading& reading, const ConfigNode& node, ConfigNode::Kind kind);
 std::string kind_name(const ConfigNode& node);
 void unknown_key(Reading& reading, const ConfigNode& entry, const std::vector<std::string>& allowed,
                  const std::string& of);
-void missing_key(Reading& reading, const ConfigNode& map, const std::string& name, const std::string& help);
+void missing_key(Reading& reading, const ConfigNode& map, const std::string& name, const std::string& meaning);
 void wrong_word(Reading& reading, const ConfigNode& node, const std::vector<std::string>& allowed);
 ConfigNode object_schema();
-void add_property(ConfigNode& object, const std::string& name, const std::string& help, bool required,
-                  ConfigNode schema, const std::optional<ConfigNode>& standard);
+void add_property(ConfigNode& object, const std::string& name, const KeyHelp& help, bool required, ConfigNode schema,
+                  const std::optional<ConfigNode>& standard);
 ConfigNode list_schema(ConfigNode item, std::size_t least);
 ConfigNode words_schema(const std::vector<std::string>& words);
+ConfigNode word_schema(const std::string& word);
 ConfigNode one_of(std::vector<ConfigNode> alternatives);
 
 template <class S>
@@ -136,7 +147,8 @@ void read_members(Reading& reading, const ConfigNode& node, S& value, const std:
     unknown_key(reading, entry, allowed, of);
   }
   for (const auto& member : members) {
-    if (member.required && node.find(member.name) == nullptr) missing_key(reading, node, member.name, member.help);
+    if (member.required && node.find(member.name) == nullptr)
+      missing_key(reading, node, member.name, member.help.meaning);
   }
 }
 
@@ -160,7 +172,7 @@ void describe_members(ConfigNode& schema, const std::vector<MemberOf<S>>& member
 
 /// A member whose key must be present.
 template <class S, class T>
-detail::MemberOf<S> required(std::string name, T S::*member, Codec<T> codec, std::string help) {
+detail::MemberOf<S> required(std::string name, T S::*member, Codec<T> codec, KeyHelp help) {
   return {std::move(name),
           std::move(help),
           true,
@@ -171,7 +183,7 @@ detail::MemberOf<S> required(std::string name, T S::*member, Codec<T> codec, std
 
 /// A member that keeps the value it has in a new S where its key is absent.
 template <class S, class T>
-detail::MemberOf<S> defaulted(std::string name, T S::*member, Codec<T> codec, std::string help) {
+detail::MemberOf<S> defaulted(std::string name, T S::*member, Codec<T> codec, KeyHelp help) {
   detail::MemberOf<S> result = required(std::move(name), member, std::move(codec), std::move(help));
   result.required = false;
   return result;
@@ -179,7 +191,7 @@ detail::MemberOf<S> defaulted(std::string name, T S::*member, Codec<T> codec, st
 
 /// A member that may be absent, without a default.
 template <class S, class T>
-detail::MemberOf<S> maybe(std::string name, std::optional<T> S::*member, Codec<T> codec, std::string help) {
+detail::MemberOf<S> maybe(std::string name, std::optional<T> S::*member, Codec<T> codec, KeyHelp help) {
   return {std::move(name),
           std::move(help),
           false,
@@ -192,12 +204,19 @@ detail::MemberOf<S> maybe(std::string name, std::optional<T> S::*member, Codec<T
 
 /// A member, a list, that is written only where it is not empty.
 template <class S, class T>
-detail::MemberOf<S> maybe(std::string name, std::vector<T> S::*member, Codec<std::vector<T>> codec, std::string help) {
+detail::MemberOf<S> maybe(std::string name, std::vector<T> S::*member, Codec<std::vector<T>> codec, KeyHelp help) {
   detail::MemberOf<S> result = defaulted(std::move(name), member, codec, std::move(help));
   result.write = [member, write = codec.write](const S& s) {
     return (s.*member).empty() ? std::nullopt : std::optional<ConfigNode>(write(s.*member));
   };
   return result;
+}
+
+/// The codec with a name for what it describes. Where it is used again, explanations refer to the first use.
+template <class T>
+Codec<T> named(const char* name, Codec<T> codec) {
+  codec.schema.add("title", make_text(name));
+  return codec;
 }
 
 /// A mapping with the members of a struct.

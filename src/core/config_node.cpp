@@ -164,6 +164,8 @@ std::string to_yaml(const ConfigNode& root) {
   return out;
 }
 
+std::string to_yaml_line(const ConfigNode& node) { return yaml_flow(node); }
+
 Json to_json(const ConfigNode& node) {
   switch (node.kind) {
     case ConfigNode::Kind::none: return {};

@@ -55,6 +55,8 @@ std::string shortest(double value);
 
 /// YAML text of a mapping; reads back to the same tree.
 std::string to_yaml(const ConfigNode& root);
+/// A value as YAML on one line, `{a: 1, b: [2, 3]}`.
+std::string to_yaml_line(const ConfigNode& node);
 /// The same tree in JSON; scalars that are not quoted must be numbers, true or false.
 Json to_json(const ConfigNode& node);
 

@@ -27,6 +27,8 @@ class TreeBuilder : public YAML::EventHandler {
 
   ConfigDocument take() { return std::move(document_); }
   bool empty() const { return !finished_; }
+  /// Where the last scalar begins if it is quoted.
+  const std::optional<YAML::Mark>& last_quote() const { return last_quote_; }
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -38,6 +40,7 @@ class TreeBuilder : public YAML::EventHandler {
     ConfigNode scalar = node(ConfigNode::Kind::scalar, mark);
     scalar.text = value;
     scalar.quoted = tag != "?";
+    last_quote_ = scalar.quoted ? std::optional(mark) : std::nullopt;
     add(std::move(scalar));
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
@@ -121,6 +124,7 @@ class TreeBuilder : public YAML::EventHandler {
   std::string source_;
   std::vector<Open> open_;
   ConfigDocument document_;
+  std::optional<YAML::Mark> last_quote_;
   bool finished_ = false;
 };
 
@@ -165,6 +169,21 @@ std::string why_unreadable(const std::string& file) {
   return std::strerror(errno);
 }
 
+/// Whether a text in quotes that begins at a place has no end. The parser takes all that follows for part of it.
+bool is_left_open(const std::string& text, std::size_t begin) {
+  if (begin >= text.size() || (text[begin] != '"' && text[begin] != '\'')) return false;
+  for (std::size_t i = begin + 1; i < text.size(); ++i) {
+    if (text[i] == '\\' && text[begin] == '"') {
+      ++i;
+    } else if (text[i] == text[begin]) {
+      // Two single quotes stand for one.
+      if (text[begin] == '"' || i + 1 >= text.size() || text[i + 1] != '\'') return false;
+      ++i;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 ConfigDocument parse_yaml(const std::string& text, const std::string& source) {
@@ -173,6 +192,10 @@ ConfigDocument parse_yaml(const std::string& text, const std::string& source) {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     parser.HandleNextDocument(builder);
+    if (const auto& mark = builder.last_quote(); mark && is_left_open(text, static_cast<std::size_t>(mark->pos))) {
+      throw InputError(to_string(Place{source, mark->line + 1, mark->column + 1}) +
+                       ": not valid YAML: the quote that begins here is never closed");
+    }
     TreeBuilder more(source);
     if (parser.HandleNextDocument(more) && !more.empty()) {
       throw InputError(to_string(more.take().root.place) + ": holds a second YAML document");

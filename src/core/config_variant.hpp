@@ -12,7 +12,7 @@ namespace quicksand {
 template <class V>
 struct Alternative {
   std::string name;
-  std::string help;
+  KeyHelp help;
   /// Reads the members; `tag` is a key of the mapping to pass over.
   std::function<void(Reading&, const ConfigNode&, const std::string& tag, V&)> read;
   /// The mapping, or nothing if the variant holds another alternative.
@@ -22,9 +22,9 @@ struct Alternative {
 
 /// The alternative T of the variant V.
 template <class V, class T>
-Alternative<V> alternative(std::string name, std::vector<detail::MemberOf<T>> members, const std::string& help) {
+Alternative<V> alternative(std::string name, std::vector<detail::MemberOf<T>> members, KeyHelp help) {
   const Codec<T> codec = object(members);
-  Alternative<V> result;
+  Alternative<V> result{{}, std::move(help), {}, {}, codec.schema};
   result.read = [name, members](Reading& reading, const ConfigNode& node, const std::string& tag, V& out) {
     if (!detail::expect(reading, node, ConfigNode::Kind::map)) return;
     T value{};
@@ -35,9 +35,7 @@ Alternative<V> alternative(std::string name, std::vector<detail::MemberOf<T>> me
     const T* held = std::get_if<T>(&value);
     return held != nullptr ? std::optional<ConfigNode>(codec.write(*held)) : std::nullopt;
   };
-  result.schema = codec.schema;
   result.name = std::move(name);
-  result.help = help;
   return result;
 }
 
@@ -67,7 +65,7 @@ Codec<V> tagged(std::string tag, std::vector<Alternative<V>> alternatives) {
   std::vector<ConfigNode> schemas;
   for (const auto& alternative : alternatives) {
     ConfigNode schema = alternative.schema;
-    detail::add_property(schema, tag, alternative.help, true, detail::words_schema({alternative.name}), std::nullopt);
+    detail::add_property(schema, tag, alternative.help, true, detail::word_schema(alternative.name), std::nullopt);
     schemas.push_back(std::move(schema));
   }
   codec.schema = detail::one_of(std::move(schemas));

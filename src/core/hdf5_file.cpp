@@ -75,6 +75,12 @@ Handle access_properties() {
 /// Largest chunk of a compressed dataset.
 constexpr std::size_t largest_chunk_bytes = std::size_t{1} << 20;
 
+/// Bytes of values per byte in the file: deflate comes to 1032, with filters that shuffle no more.
+constexpr double largest_compression = 1100;
+
+/// Bytes of values that are read whatever their file holds, such as those that were never written.
+constexpr double smallest_dataset = 4096;
+
 /// By how much the memory of a file that is put together grows.
 constexpr std::size_t memory_increment = std::size_t{1} << 22;
 
@@ -97,6 +103,13 @@ Handle text_type(std::size_t length) {
   H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
   H5Tset_cset(type.get(), H5T_CSET_UTF8);
   return type;
+}
+
+/// Makes sure that an attribute is a single value: there is room for one only.
+void check_single(hid_t attribute, const std::filesystem::path& path, const std::string& what) {
+  const Handle space(checked(H5Aget_space(attribute), path, what), H5Sclose);
+  if (H5Sget_simple_extent_npoints(space.get()) == 1) return;
+  throw FileError(path.string() + ": cannot " + what + ": it is not a single value");
 }
 
 std::string quoted(const std::string& kind, const std::string& name) { return kind + " '" + name + "'"; }
@@ -250,6 +263,19 @@ Extents Hdf5Reader::extents(const std::string& name) const {
   return Extents(dims.begin(), dims.end());
 }
 
+std::size_t Hdf5Reader::count_stored(const std::string& name, std::size_t value_bytes) const {
+  const std::string what = "read " + quoted("dataset", name);
+  const Handle set(checked(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), path_, what), H5Dclose);
+  // No number of values that memory could not hold is believed that the bytes in the file can't hold either.
+  const double most = static_cast<double>(H5Dget_storage_size(set.get())) * largest_compression;
+  double claimed = 1;
+  for (const std::size_t e : extents(name)) claimed *= static_cast<double>(e);
+  if (claimed * static_cast<double>(value_bytes) > most + smallest_dataset) {
+    throw FileError(path_.string() + ": cannot " + what + ": it claims more values than its file holds");
+  }
+  return static_cast<std::size_t>(claimed);
+}
+
 void Hdf5Reader::read_raw(const std::string& name, void* values, std::size_t size, std::int64_t type) const {
   const std::string what = "read " + quoted("dataset", name);
   const std::size_t stored = count(extents(name));
@@ -266,19 +292,19 @@ void Hdf5Reader::read(const std::string& name, std::span<double> values) const {
 }
 
 std::vector<double> Hdf5Reader::doubles(const std::string& name) const {
-  std::vector<double> values(count(extents(name)));
+  std::vector<double> values(count_stored(name, sizeof(double)));
   read(name, values);
   return values;
 }
 
 std::vector<std::int64_t> Hdf5Reader::integers(const std::string& name) const {
-  std::vector<std::int64_t> values(count(extents(name)));
+  std::vector<std::int64_t> values(count_stored(name, sizeof(std::int64_t)));
   read_raw(name, values.data(), values.size(), H5T_NATIVE_INT64);
   return values;
 }
 
 std::vector<unsigned char> Hdf5Reader::bytes(const std::string& name) const {
-  std::vector<unsigned char> values(count(extents(name)));
+  std::vector<unsigned char> values(count_stored(name, sizeof(unsigned char)));
   read_raw(name, values.data(), values.size(), H5T_NATIVE_UCHAR);
   return values;
 }
@@ -288,6 +314,7 @@ void Hdf5Reader::attribute_raw(const std::string& name, void* value, std::int64_
   const std::string what = "read " + quoted("attribute", name);
   const Handle attribute(
       checked(H5Aopen_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_, what), H5Aclose);
+  check_single(attribute.get(), path_, what);
   checked(H5Aread(attribute.get(), type, value), path_, what);
 }
 
@@ -307,6 +334,7 @@ std::string Hdf5Reader::text_attribute(const std::string& name, const std::strin
   const std::string what = "read " + quoted("attribute", name);
   const Handle attribute(
       checked(H5Aopen_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_, what), H5Aclose);
+  check_single(attribute.get(), path_, what);
   const Handle stored(checked(H5Aget_type(attribute.get()), path_, what), H5Tclose);
   std::string value(H5Tget_size(stored.get()), '\0');
   checked(H5Aread(attribute.get(), text_type(value.size()).get(), value.data()), path_, what);

@@ -90,6 +90,8 @@ class Hdf5Reader {
   std::string text_attribute(const std::string& name, const std::string& object = "/") const;
 
  private:
+  /// Number of values of a dataset, where the file is large enough for them.
+  std::size_t count_stored(const std::string& name, std::size_t value_bytes) const;
   void read_raw(const std::string& name, void* values, std::size_t size, std::int64_t type) const;
   void attribute_raw(const std::string& name, void* value, std::int64_t type, const std::string& object) const;
 

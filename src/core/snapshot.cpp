@@ -80,11 +80,22 @@ FieldSnapshot read_fields(const std::filesystem::path& path) {
   snapshot.step = file.integer_attribute("step");
   snapshot.time = file.real_attribute("time");
   snapshot.dt = file.real_attribute("dt");
+  const auto refuse = [&](const std::string& name, const std::string& why) {
+    throw FileError(path.string() + ": '" + name + "' " + why);
+  };
   // The names of the axes sort as x, y, z.
-  for (const std::string& name : file.names("grid")) snapshot.axes.push_back({name, file.doubles("grid/" + name)});
+  for (const std::string& name : file.names("grid")) {
+    snapshot.axes.push_back({name, file.doubles("grid/" + name)});
+    if (snapshot.axes.back().faces.size() < 2) refuse("grid/" + name, "has no cells");
+  }
+  const Extents cells = cell_extents(snapshot.axes);
   for (const std::string& name : file.names("fields")) {
     const Extents extents = file.extents("fields/" + name);
-    const bool is_vector = extents.size() > snapshot.axes.size();
+    const bool is_vector = extents.size() == cells.size() + 1;
+    if (extents.size() < cells.size() || !std::equal(cells.begin(), cells.end(), extents.begin()) ||
+        (extents.size() > cells.size() && !is_vector)) {
+      refuse("fields/" + name, "does not fit the grid");
+    }
     snapshot.fields.push_back({name, is_vector ? static_cast<int>(extents.back()) : 1, file.doubles("fields/" + name)});
   }
   return snapshot;

@@ -14,21 +14,29 @@ namespace {
 
 struct Name {
   Dimension dimension;
+  const char* article;
   const char* text;
+  const char* unit;
 };
 
 constexpr Name names[] = {
-    {dimension::none, "a plain number"},
-    {dimension::length, "a length (such as m)"},
-    {dimension::wavenumber, "a wavenumber (such as 1/m)"},
-    {dimension::time, "a time (such as s)"},
-    {dimension::mass, "a mass (such as kg)"},
-    {dimension::velocity, "a velocity (such as m/s)"},
-    {dimension::acceleration, "an acceleration (such as m/s^2)"},
-    {dimension::density, "a density (such as kg/m^3)"},
-    {dimension::pressure, "a pressure or stress (such as Pa)"},
-    {dimension::viscosity, "a viscosity (such as Pa s)"},
+    {dimension::length, "a ", "length", "m"},
+    {dimension::wavenumber, "a ", "wavenumber", "1/m"},
+    {dimension::time, "a ", "time", "s"},
+    {dimension::mass, "a ", "mass", "kg"},
+    {dimension::velocity, "a ", "velocity", "m/s"},
+    {dimension::acceleration, "an ", "acceleration", "m/s^2"},
+    {dimension::density, "a ", "density", "kg/m^3"},
+    {dimension::pressure, "a ", "pressure or stress", "Pa"},
+    {dimension::viscosity, "a ", "viscosity", "Pa s"},
 };
+
+const Name* find_name(const Dimension& dimension) {
+  for (const Name& name : names) {
+    if (name.dimension == dimension) return &name;
+  }
+  return nullptr;
+}
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
@@ -52,11 +60,18 @@ int take_exponent(std::string_view& text) {
 }  // namespace
 
 std::string to_string(const Dimension& dimension) {
-  for (const Name& name : names) {
-    if (name.dimension == dimension) return name.text;
+  if (dimension == dimension::none) return "a plain number";
+  if (const Name* name = find_name(dimension)) {
+    return std::string(name->article) + name->text + " (such as " + name->unit + ")";
   }
   return "mass^" + std::to_string(dimension.mass) + " length^" + std::to_string(dimension.length) + " time^" +
          std::to_string(dimension.time);
+}
+
+std::string quantity_in_si(const Dimension& dimension) {
+  if (dimension == dimension::none) return "number";
+  const Name* name = find_name(dimension);
+  return name != nullptr ? std::string(name->text) + " in " + name->unit : to_string(dimension);
 }
 
 Unit parse_unit(std::string_view text) {

@@ -40,6 +40,9 @@ inline constexpr double foot_of_water = 1000 * 9.80665 * foot;  ///< conventiona
 /// Name of a dimension with an example unit, e.g. `a pressure (such as Pa)`.
 std::string to_string(const Dimension& dimension);
 
+/// Name of a dimension with its unit in SI, e.g. `pressure or stress in Pa`; `number` without one.
+std::string quantity_in_si(const Dimension& dimension);
+
 /// A unit: its dimension and its size in SI.
 struct Unit {
   Dimension dimension;

@@ -1,5 +1,7 @@
 /// \file
 /// What a flow hands over to another that goes on in its place.
+#include <algorithm>
+
 #include "core/archive.hpp"
 #include "physics/flow.hpp"
 
@@ -18,6 +20,20 @@ void carry(Archive& archive, State<Dim>& state) {
   carry(archive, "flow/acceleration", state.acceleration);
 }
 
+/// Refuses numbers of cells and bubbles that are none.
+void check(const Archive& archive, GasState& gas) {
+  const std::vector<int>& region = gas.region.values();
+  const auto cells = static_cast<std::ptrdiff_t>(region.size());
+  for (const Cell c : gas.held_open) {
+    if (c.n < 0 || c.n >= cells) archive.refuse("gas/held_open", "a cell that the grid does not have");
+  }
+  const bool known = std::all_of(region.begin(), region.end(), [&](int id) {
+    return id == 0 || id == open_air ||
+           std::any_of(gas.bubbles.begin(), gas.bubbles.end(), [&](const Bubble& bubble) { return bubble.id == id; });
+  });
+  if (!known) archive.refuse("gas/region", "a bubble that is not among those of the flow");
+}
+
 void carry(Archive& archive, GasState& gas) {
   carry(archive, "gas/region", gas.region);
   carry(archive, "gas/last_id", gas.last_id);
@@ -30,6 +46,7 @@ void carry(Archive& archive, GasState& gas) {
   carry(archive, "gas/bubble/pressure", gas.bubbles, &Bubble::pressure);
   carry(archive, "gas/bubble/mean_pressure", gas.bubbles, &Bubble::mean_pressure);
   carry(archive, "gas/bubble/growth", gas.bubbles, &Bubble::growth);
+  if (archive.loading()) check(archive, gas);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "support/cases.hpp"
+#include "support/figures.hpp"
 #include "support/grids.hpp"
 
 namespace quicksand {
@@ -67,15 +68,18 @@ Flight fly(int n, double courant) {
 TEST(TransportConvergence, AFlyingDiscKeepsItsShape) {
   const Flight coarse = fly(32, 0.4);
   const Flight fine = fly(64, 0.4);
-  EXPECT_LE(coarse.shape_error, 0.025);
-  EXPECT_LE(fine.shape_error, 0.02);
+  const std::string misplaced = "part of the volume in the wrong place";
+  testing::expect_at_most({"flying disc, 4.8 cells per radius", misplaced, "exact motion"}, coarse.shape_error, 0.025);
+  testing::expect_at_most({"flying disc, 9.6 cells per radius", misplaced, "exact motion"}, fine.shape_error, 0.02);
   EXPECT_LT(fine.shape_error, coarse.shape_error);
 }
 
 TEST(TransportConvergence, AFlyingDiscKeepsItsVolumeAndVelocity) {
   const Flight flight = fly(32, 0.4);
-  EXPECT_LE(flight.volume_error, 1e-13);
-  EXPECT_LE(flight.velocity_error, 1e-9);
+  testing::expect_at_most({"flying disc, 4.8 cells per radius", "relative error of the volume", "kept"},
+                          flight.volume_error, 1e-13);
+  testing::expect_at_most({"flying disc, 4.8 cells per radius", "error of the velocity", "kept"}, flight.velocity_error,
+                          1e-9);
 }
 
 }  // namespace

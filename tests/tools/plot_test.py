@@ -140,6 +140,24 @@ class ArrowTest(unittest.TestCase):
 
 
 class SurfaceTest(unittest.TestCase):
+    def test_surface_has_the_colour_of_fuller_cells(self):
+        class Layer:
+            """Water below z = 0.5, under a row of cells with specks of sand only."""
+            axes = {axis: np.linspace(0, 1, 5) for axis in "xyz"}
+            species = ["sand", "water"]
+
+            def fraction(self, name):
+                values = np.zeros((4, 4, 4))
+                values[:2] = name == "water"
+                values[2] = 1e-3 * (name == "sand")
+                return values
+
+            total_fraction = property(lambda self: self.fraction("sand") + self.fraction("water"))
+
+        colours = solid.tint(Layer(), np.array([[0.4, 0.6, 0.45], [0.4, 0.6, 0.55]]))
+        water = style.species_colours(["sand", "water"])[1]
+        np.testing.assert_allclose(colours, [water, water])
+
     def test_sphere_has_the_right_area(self):
         axis = np.linspace(-1, 1, 41)
         z, y, x = np.meshgrid(axis, axis, axis, indexing="ij")

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "app/case_report.hpp"
+#include "app/case_warnings.hpp"
 #include "app/command_line.hpp"
 #include "app/output_folder.hpp"
 #include "config_test_case.hpp"
@@ -129,9 +129,32 @@ TEST_F(CommandLineFolder, CheckPrintsTheNumbersOfAGridThatIsTooLarge) {
 
 TEST(CommandLineWarnings, LiquidNearAnOpenSide) {
   const CaseConfig config = parse_case(valid_case, "case.yaml", {"initial.0.shape.cylinder.height=1.49"});
-  const std::vector<std::string> warnings = case_warnings(config);
+  const CaseWarnings warnings = case_warnings(config);
   ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_NE(warnings[1].find("less than 2 cells from the open side z_max"), std::string::npos);
+  EXPECT_NE(warnings[1].message.find("less than 2 cells from the open side z_max"), std::string::npos);
+}
+
+TEST_F(CommandLineFolder, CheckWarnsAtThePlaceAndFailsWhereItIsStrict) {
+  const std::string file = write("case.yaml", valid_case);
+  const std::string text = output_of({"check", file});
+  EXPECT_NE(text.find("warning        " + file + ":19:5: species[1]: "), std::string::npos) << text;
+  std::ostringstream out;
+  EXPECT_EQ(execute(parse_command_line({"check", file}), out, out), 0);
+  EXPECT_EQ(execute(parse_command_line({"check", file, "--strict"}), out, out), 2);
+  out.str("");
+  execute(parse_command_line({"check", file, "--set", "time.step=0.5"}), out, out);
+  EXPECT_NE(out.str().find("--set time.step=0.5: time.step: is 0.5"), std::string::npos) << out.str();
+}
+
+TEST_F(CommandLineFolder, ShowExplainsCasesAndKeys) {
+  const std::string file = write("case.yaml", valid_case);
+  EXPECT_NE(output_of({"show", file, "--explain"}).find("# mass per volume"), std::string::npos);
+  EXPECT_NE(output_of({"show", "--explain"}).find("# A case to begin with"), std::string::npos);
+  EXPECT_EQ(output_of({"show", "--explain", "time.cfl"}), output_of({"show", "--explain=cfl"}));
+  EXPECT_EQ(output_of({"schema", "--markdown"}).rfind("# Keys of the case file", 0), 0u);
+  EXPECT_THROW(output_of({"show", "--explain", "time.clf"}), InputError);
+  EXPECT_THROW(output_of({"show", "--explain", "missing.yaml"}), InputError);
+  EXPECT_THROW(output_of({"show", file, "--explain=cfl"}), InputError);
 }
 
 TEST(CommandLineText, VersionHelpAndSchema) {
@@ -139,6 +162,27 @@ TEST(CommandLineText, VersionHelpAndSchema) {
   EXPECT_NE(output_of({"--version"}).find("hypre "), std::string::npos);
   EXPECT_NE(output_of({"--help"}).find("quicksand run CASE.yaml"), std::string::npos);
   EXPECT_EQ(output_of({"schema"}).front(), '{');
+}
+
+TEST(CommandLineText, HelpOnACommandNamesItsOptions) {
+  for (const CommandHelp& command : command_table()) {
+    const std::string help = output_of({command.name, "--help"});
+    EXPECT_NE(output_of({"--help"}).find(std::string("quicksand ") + command.name), std::string::npos);
+    if (command.command == Command::help) continue;
+    EXPECT_EQ(help, output_of({"help", command.name}));
+    EXPECT_EQ(help.rfind(std::string("quicksand ") + command.name + ":", 0), 0u) << help;
+    for (const OptionHelp& option : command.options) EXPECT_NE(help.find(option.name), std::string::npos) << help;
+  }
+  EXPECT_NE(message({"help", "rnu"}).find("did you mean 'run'?"), std::string::npos);
+}
+
+TEST(CommandLineText, ManualPageHoldsEveryCommandAndNoWideLineOfHelp) {
+  const std::string page = output_of({"manual"});
+  for (const CommandHelp& command : command_table()) {
+    EXPECT_NE(page.find(std::string(".SS ") + command.name), std::string::npos) << command.name;
+  }
+  std::istringstream lines(output_of({"--help"}));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 92u) << line;
 }
 
 TEST_F(CommandLineFolder, InfoOnAResultFolder) {

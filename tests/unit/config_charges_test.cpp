@@ -3,6 +3,7 @@
 
 #include "app/build_flow.hpp"
 #include "app/case_report.hpp"
+#include "app/case_warnings.hpp"
 #include "app/initial_bubbles.hpp"
 #include "config_test_case.hpp"
 
@@ -133,9 +134,11 @@ TEST(ConfigCharges, AreReported) {
   const std::string axisymmetric = case_report(parse_case(ball(planar_case), "case.yaml"));
   EXPECT_NE(axisymmetric.find("radius ratio 12\n"), std::string::npos) << axisymmetric;
   EXPECT_NE(axisymmetric.find("free-field period 0.0"), std::string::npos) << axisymmetric;
-  const std::vector<std::string> warnings = case_warnings(parse_case(planar_case, "case.yaml"));
+  const CaseWarnings warnings = case_warnings(parse_case(planar_case, "case.yaml"));
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("charges[0]: the minimum radius is 0.2037 cells"), std::string::npos) << warnings[0];
+  EXPECT_EQ(warnings[0].path, "charges[0]");
+  EXPECT_NE(warnings[0].message.find("the minimum radius 0.002587 is 0.2037 cells, less than one"), std::string::npos)
+      << warnings[0].message;
 }
 
 TEST(ConfigCharges, ReadBackAsTheyAreWritten) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "support/cases.hpp"
+#include "support/figures.hpp"
 
 namespace quicksand {
 namespace {
@@ -108,30 +109,38 @@ CaseConfig disc(double p0, double b, int cells_per_radius, double end) {
   return config;
 }
 
-void expect_close(const Motion& motion, const Extreme& exact, double radius_error, double time_error) {
-  EXPECT_NEAR(motion.largest.radius / exact.radius, 1, radius_error);
-  EXPECT_NEAR(motion.largest.time / exact.time, 1, time_error);
+const std::string exact_motion = "exact motion";
+
+void expect_close(const std::string& what, const Motion& motion, const Extreme& exact, double radius_error,
+                  double time_error) {
+  testing::expect_relative({what, "largest radius", exact_motion}, motion.largest.radius, exact.radius, radius_error);
+  testing::expect_relative({what, "time of the largest radius", exact_motion}, motion.largest.time, exact.time,
+                           time_error);
+}
+
+void expect_rebound(const std::string& what, const Motion& motion, double bound) {
+  testing::expect_relative({what, "smallest radius at the rebound", exact_motion}, motion.smallest.radius, 1, bound);
 }
 
 TEST(FreeBubble, DiscAtTwiceTheAmbientPressure) {
   const Motion motion = observe<2>(disc(2, 5, 32, 6.1), 0.25);
-  expect_close(motion, exact_maximum(2, 2, 5), 0.001, 0.001);
-  EXPECT_NEAR(motion.smallest.radius, 1, 0.003);
+  expect_close("bubble in a disc, P = 2, 32 cells", motion, exact_maximum(2, 2, 5), 0.001, 0.001);
+  expect_rebound("bubble in a disc, P = 2, 32 cells", motion, 0.003);
 }
 
 TEST(FreeBubble, DiscAtTenTimesTheAmbientPressure) {
   const Extreme exact = exact_maximum(2, 10, 10);
   const Motion coarse = observe<2>(disc(10, 10, 16, 6.5), 0.25);
   const Motion fine = observe<2>(disc(10, 10, 32, 12), 0.25);
-  expect_close(coarse, exact, 0.006, 0.003);
-  expect_close(fine, exact, 0.003, 0.002);
-  EXPECT_NEAR(fine.smallest.radius, 1, 0.02);
+  expect_close("bubble in a disc, P = 10, 16 cells", coarse, exact, 0.006, 0.003);
+  expect_close("bubble in a disc, P = 10, 32 cells", fine, exact, 0.003, 0.002);
+  expect_rebound("bubble in a disc, P = 10, 32 cells", fine, 0.02);
 }
 
 TEST(FreeBubble, Ball) {
   const Motion motion = observe<2>(testing::shipped_case("bubbles/free_ball"), 0.5);
-  expect_close(motion, exact_maximum(3, 10, 5), 0.003, 0.002);
-  EXPECT_NEAR(motion.smallest.radius, 1, 0.02);
+  expect_close("bubble in a ball, P = 10, 32 cells", motion, exact_maximum(3, 10, 5), 0.003, 0.002);
+  expect_rebound("bubble in a ball, P = 10, 32 cells", motion, 0.02);
 }
 
 TEST(FreeBubble, PushesEvenIfItFillsNoCell) {
@@ -165,14 +174,15 @@ CaseConfig octant(int cells_per_radius, double b) {
 TEST(FreeBubble, OctantOfABall) {
   CaseConfig config = octant(16, 4);
   config.time.end = 2.3;
-  expect_close(observe<3>(config, 0.125), exact_maximum(3, 10, 4), 0.006, 0.003);
+  expect_close("bubble in a ball in space, P = 10, 16 cells", observe<3>(config, 0.125), exact_maximum(3, 10, 4), 0.006,
+               0.003);
 }
 
 TEST(FreeBubbleSlow, ReboundAt64Cells) {
   const Extreme exact = exact_maximum(2, 10, 10);
   const Motion plane = observe<2>(disc(10, 10, 64, 12), 0.25);
-  expect_close(plane, exact, 0.002, 0.001);
-  EXPECT_NEAR(plane.smallest.radius, 1, 0.01);
+  expect_close("bubble in a disc, P = 10, 64 cells", plane, exact, 0.002, 0.001);
+  expect_rebound("bubble in a disc, P = 10, 64 cells", plane, 0.01);
   EXPECT_NEAR(plane.smallest.time / (2 * exact.time), 1, 0.005);
 }
 

@@ -6,10 +6,13 @@
 #include <cmath>
 
 #include "physics/stress.hpp"
+#include "support/figures.hpp"
 #include "support/viscometric.hpp"
 
 namespace quicksand {
 namespace {
+
+const std::string published = "Syrakos, Georgiou and Alexandrou 2013 and others";
 
 /// The vortex: largest stream function and the height where it is.
 struct Vortex {
@@ -47,20 +50,24 @@ CaseConfig cavity_case(const Law& law, int n) {
 
 Flow<2> cavity(const Law& law, int n) { return testing::steady_flow<2>(cavity_case(law, n)); }
 
-void expect_vortex(const Flow<2>& flow, double height, double stream, double height_error, double stream_error) {
+void expect_vortex(const std::string& what, const Flow<2>& flow, double height, double stream, double height_error,
+                   double stream_error) {
   const Vortex vortex = find_vortex(flow);
-  EXPECT_NEAR(vortex.height, height, height_error);
-  EXPECT_NEAR(vortex.flow, stream, stream_error * stream);
+  testing::expect_absolute({"cavity, " + what, "height of the vortex", published}, vortex.height, height, height_error);
+  testing::expect_relative({"cavity, " + what, "flow in the vortex", published}, vortex.flow, stream, stream_error);
 }
 
-TEST(Cavity, NewtonianVortexOnACoarseGrid) { expect_vortex(cavity(Newtonian{1}, 32), 0.7650, 0.1001, 0.005, 0.015); }
+TEST(Cavity, NewtonianVortexOnACoarseGrid) {
+  expect_vortex("Bn = 0, 32 cells", cavity(Newtonian{1}, 32), 0.7650, 0.1001, 0.005, 0.015);
+}
 
 TEST(Cavity, VorticesOfYieldStressLiquids) {
-  expect_vortex(cavity(Newtonian{1}, 64), 0.7650, 0.1001, 0.002, 0.005);
+  expect_vortex("Bn = 0, 64 cells", cavity(Newtonian{1}, 64), 0.7650, 0.1001, 0.002, 0.005);
   const double values[][3] = {{1, 0.7956, 0.0868}, {2, 0.8155, 0.0781}, {5, 0.8478, 0.0634}};
   for (const auto& [bingham_number, height, stream] : values) {
     SCOPED_TRACE(bingham_number);
-    expect_vortex(cavity(Papanastasiou{1, bingham_number, 1000}, 64), height, stream, 0.005, 0.015);
+    const std::string what = "Bn = " + std::to_string(static_cast<int>(bingham_number)) + ", alpha = 1000, 64 cells";
+    expect_vortex(what, cavity(Papanastasiou{1, bingham_number, 1000}, 64), height, stream, 0.005, 0.015);
   }
 }
 
@@ -69,7 +76,7 @@ TEST(Cavity, SlowRigidZonesOfBinghamsLaw) {
   const CaseConfig config = cavity_case(Bingham{1, 5}, 64);
   Flow<2> flow = build_flow<2>(config);
   testing::run(config, flow);
-  expect_vortex(flow, 0.8478, 0.0634, 0.005, 0.015);
+  expect_vortex("Bn = 5, Bingham's law, 64 cells", flow, 0.8478, 0.0634, 0.005, 0.015);
   const Grid<2>& grid = flow.domain().grid;
   const CellField unyielded = evaluate_stress(flow).unyielded;
   std::vector<double> ends{0};
@@ -81,9 +88,11 @@ TEST(Cavity, SlowRigidZonesOfBinghamsLaw) {
   }
   ASSERT_EQ(ends.size(), 4u);
   constexpr double cell = 1.0 / 64;
-  EXPECT_NEAR(ends[1], 0.188, 3 * cell);  // the liquid beside the zone hardly strains
-  EXPECT_NEAR(ends[2], 0.648, 2 * cell);
-  EXPECT_NEAR(ends[3], 0.766, 2 * cell);
+  const std::string rigid_zones = "cavity, Bn = 5, Bingham's law, 64 cells";
+  // The liquid beside the lower zone hardly strains.
+  testing::expect_absolute({rigid_zones, "top of the lower rigid zone", published}, ends[1], 0.188, 3 * cell);
+  testing::expect_absolute({rigid_zones, "foot of the upper rigid zone", published}, ends[2], 0.648, 2 * cell);
+  testing::expect_absolute({rigid_zones, "top of the upper rigid zone", published}, ends[3], 0.766, 2 * cell);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "physics/diffusion.hpp"
+#include "support/figures.hpp"
 #include "support/mixtures.hpp"
 #include "support/viscometric.hpp"
 
@@ -56,8 +57,11 @@ double stopping_time(double bingham_number, int cells, double dt) {
 }
 
 TEST(Cessation, ChannelFlowStopsInFiniteTime) {
-  EXPECT_NEAR(stopping_time(1, 40, 1e-3), 0.454, 0.01 * 0.454);
-  EXPECT_NEAR(stopping_time(2, 40, 1e-3), 0.290, 0.01 * 0.290);
+  const std::string source = "Chatzimina et al. 2005";
+  testing::expect_relative({"channel, Bn = 1, 40 cells", "time at which it stops", source}, stopping_time(1, 40, 1e-3),
+                           0.454, 0.01);
+  testing::expect_relative({"channel, Bn = 2, 40 cells", "time at which it stops", source}, stopping_time(2, 40, 1e-3),
+                           0.290, 0.01);
 }
 
 TEST(Cessation, WholeFlowStopsAndStaysAtRest) {

@@ -3,11 +3,14 @@
 
 #include <cmath>
 
+#include "support/figures.hpp"
 #include "support/grids.hpp"
 #include "support/viscometric.hpp"
 
 namespace quicksand {
 namespace {
+
+const std::string exact_profile = "exact profile";
 
 /// Sides, grid and law of a case with liquid everywhere.
 CaseConfig full_case(const std::string& grid, const std::string& sides, const std::string& law,
@@ -44,11 +47,11 @@ TEST(Channel, PressureDrivesAPlug) {
     const Flow<2> flow = testing::steady_flow<2>(config);
     const double error = largest_error(
         flow, 0, [&](const Vec<2>& x) { return testing::driven_velocity(law, 1, 1, 0.5, std::abs(x[1])); });
+    const std::string plug = "channel, yield stress, " + std::to_string(n) + " cells";
     // In units of the plug's speed, 1/8.
-    EXPECT_LE(8 * error, 0.5 / (n * n / 256.0)) << n;
-    if (coarser > 0) {
-      EXPECT_GE(std::log2(coarser / error), 1.9) << n;
-    }
+    testing::expect_at_most({plug, "error of the velocity over the plug's", exact_profile}, 8 * error,
+                            0.5 / (n * n / 256.0));
+    if (coarser > 0) testing::expect_order({plug, "error of the velocity", exact_profile}, coarser, error, 1.9);
     coarser = error;
   }
 }
@@ -60,7 +63,8 @@ TEST(Channel, PressureDrivesAParabolaOnAStretchedGrid) {
       "x_min: {open: 2, outside: mud}, x_max: {open: 0, outside: mud}, z_min: no_slip, z_max: no_slip";
   const CaseConfig config = full_case(grid, sides, "{law: newtonian, viscosity: 1}", "from: [0, -1], to: [2, 1]");
   const Flow<2> flow = testing::steady_flow<2>(config);
-  EXPECT_LE(largest_error(flow, 0, [](const Vec<2>& x) { return (1 - x[1] * x[1]) / 2; }), 3e-3);
+  testing::expect_at_most({"channel, graded cells", "error of the velocity, largest 1/2", exact_profile},
+                          largest_error(flow, 0, [](const Vec<2>& x) { return (1 - x[1] * x[1]) / 2; }), 3e-3);
 }
 
 TEST(Channel, AMovingWallDragsALinearProfile) {
@@ -71,7 +75,8 @@ TEST(Channel, AMovingWallDragsALinearProfile) {
     const CaseConfig config = full_case("dimension: 2, x: " + axis(0, 1, 4) + ", z: " + axis(0, 1, 8), sides, law,
                                         "from: [0, 0], to: [1, 1]");
     const Flow<2> flow = testing::steady_flow<2>(config);
-    EXPECT_LE(largest_error(flow, 0, [](const Vec<2>& x) { return 0.6 * x[1]; }), 1e-6) << law;
+    testing::expect_at_most({std::string("moving wall, ") + law, "error of the velocity, wall 0.6", exact_profile},
+                            largest_error(flow, 0, [](const Vec<2>& x) { return 0.6 * x[1]; }), 1e-6);
   }
 }
 
@@ -85,10 +90,9 @@ TEST(Channel, ASlidingTubeDragsALogarithmicProfile) {
                   "{law: newtonian, viscosity: 1}", "from: [1, 0], to: [2, 1]");
     const Flow<2> flow = testing::steady_flow<2>(config);
     const double error = largest_error(flow, 1, [](const Vec<2>& x) { return 1 - std::log(x[0]) / std::log(2.0); });
-    EXPECT_LE(error, 2e-3 / (n * n / 64.0));
-    if (coarser > 0) {
-      EXPECT_GE(std::log2(coarser / error), 1.9) << coarser << " " << error;
-    }
+    const std::string tube = "sliding tube, " + std::to_string(n) + " cells";
+    testing::expect_at_most({tube, "error of the velocity, wall 1", exact_profile}, error, 2e-3 / (n * n / 64.0));
+    if (coarser > 0) testing::expect_order({tube, "error of the velocity", exact_profile}, coarser, error, 1.9);
     coarser = error;
   }
 }
@@ -115,7 +119,8 @@ CaseConfig fed_channel(const std::string& inflow) {
 
 TEST(Channel, ADevelopedInflowStaysAsItIs) {
   const Flow<2> flow = testing::steady_flow<2>(fed_channel("velocity: [1.5, 0], profile: parabolic"));
-  EXPECT_LE(largest_error(flow, 0, [](const Vec<2>& x) { return 1.5 * (1 - x[1] * x[1]); }), 1e-5);
+  testing::expect_at_most({"channel, parabolic inflow", "error of the velocity, largest 1.5", exact_profile},
+                          largest_error(flow, 0, [](const Vec<2>& x) { return 1.5 * (1 - x[1] * x[1]); }), 1e-5);
   EXPECT_LE(largest_error(flow, 1, [](const Vec<2>&) { return 0.0; }), 1e-5);
 }
 

@@ -3,12 +3,18 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "support/cases.hpp"
+#include "support/figures.hpp"
 
 namespace quicksand {
 namespace {
+
+const std::string dam = "broken dam, 32 cells";
+const std::string experiment = "Martin and Moyce 1952";
 
 /// The front's place and the energy at some times.
 struct DamBreak {
@@ -50,21 +56,27 @@ TEST(DamBreak, FrontStartsWithTheExactAcceleration) {
   constexpr double row_centre = 1.0 / 64;
   const DamBreak flow = break_dam({0.1, 0.2, 0.29});
   const double a = initial_acceleration(row_centre);
-  EXPECT_NEAR(flow.front[1] - 1, 0.5 * a * 0.2 * 0.2, 0.01);
-  EXPECT_NEAR(flow.front[2] - 1, 0.5 * a * 0.29 * 0.29, 0.01);
+  const std::string source = "exact first acceleration";
+  testing::expect_absolute({dam, "way of the front at t = 0.2", source}, flow.front[1] - 1, 0.5 * a * 0.2 * 0.2, 0.01);
+  testing::expect_absolute({dam, "way of the front at t = 0.29", source}, flow.front[2] - 1, 0.5 * a * 0.29 * 0.29,
+                           0.01);
 }
 
 TEST(DamBreak, EnergyIsKeptWhileTheWaterRunsOut) {
   const DamBreak flow = break_dam({0.5, 1.0, 1.5});
-  for (const double energy : flow.energy) EXPECT_NEAR(energy / 2, 1, 2e-3);
+  testing::expect_relative({dam, "energy at t = 0.5", "kept"}, flow.energy[0], 2, 2e-3);
+  testing::expect_relative({dam, "energy at t = 1", "kept"}, flow.energy[1], 2, 2e-3);
+  testing::expect_relative({dam, "energy at t = 1.5", "kept"}, flow.energy[2], 2, 2e-3);
 }
 
 TEST(DamBreak, FrontRunsAtTheMeasuredSpeed) {
   // Mean speed between rows of the table: the measured front lags in time behind a column set free at once.
   const double scale = std::sqrt(2.0);
   const DamBreak flow = break_dam({1.63 / scale, 1.98 / scale, 2.32 / scale, 2.65 / scale});
-  EXPECT_NEAR((flow.front[3] - flow.front[0]) / (3.22 - 1.89), 1, 0.06);
-  EXPECT_NEAR((flow.front[2] - flow.front[0]) / (2.78 - 1.89), 1, 0.06);
+  testing::expect_relative({dam, "way of the front from T = 1.63 to 2.65", experiment}, flow.front[3] - flow.front[0],
+                           3.22 - 1.89, 0.06);
+  testing::expect_relative({dam, "way of the front from T = 1.63 to 2.32", experiment}, flow.front[2] - flow.front[0],
+                           2.78 - 1.89, 0.06);
 }
 
 TEST(DamBreak, FrontFollowsTheTableOnceReleased) {
@@ -77,7 +89,11 @@ TEST(DamBreak, FrontFollowsTheTableOnceReleased) {
   std::vector<double> times;
   for (const double t : table_time) times.push_back((t - delay) / scale);
   const DamBreak flow = break_dam(times);
-  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(flow.front[i] / table_front[i], 1, 0.03) << table_time[i];
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    std::ostringstream quantity;
+    quantity << "front at T = " << table_time[i] << ", 0.27 of it for letting go";
+    testing::expect_relative({dam, quantity.str(), experiment}, flow.front[i], table_front[i], 0.03);
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "support/cases.hpp"
+#include "support/figures.hpp"
 #include "support/grids.hpp"
 
 namespace quicksand {
@@ -97,27 +98,32 @@ double difference(const CaseConfig& a_case, const CaseConfig& b_case, Map&& plac
 TEST(Symmetry, ASymmetricFlowStaysSymmetric) {
   const CaseConfig config = in_the_middle({});
   const auto mirror = [](const Index<2>& i) { return Place<2>{{15 - i[0], i[1]}, {0, 1, 2}, {-1, 1, 1}}; };
-  EXPECT_LE((difference<2, 2>(config, config, mirror)), 1e-10);
+  testing::expect_at_most({"symmetric flow", "difference of its halves", "0"}, difference<2, 2>(config, config, mirror),
+                          1e-10);
 }
 
 TEST(Symmetry, HalfADomainGivesHalfTheFlow) {
   // Without stress to round-off. With it up to the quadrature, which has other points on a side than inside.
   const auto same = [](const Index<2>& i) { return Place<2>{i, {0, 1, 2}, {1, 1, 1}}; };
   const Block inviscid{.law = "{law: inviscid}"};
-  EXPECT_LE((difference<2, 2>(left_half(inviscid), in_the_middle(inviscid), same)), 1e-9);
-  EXPECT_LE((difference<2, 2>(left_half({}), in_the_middle({}), same)), 1e-3);
+  testing::expect_at_most({"half a domain, inviscid", "difference to the whole", "0"},
+                          difference<2, 2>(left_half(inviscid), in_the_middle(inviscid), same), 1e-9);
+  testing::expect_at_most({"half a domain, slurry", "difference to the whole", "0"},
+                          difference<2, 2>(left_half({}), in_the_middle({}), same), 1e-3);
 }
 
 TEST(Symmetry, OneCellThickSpaceIsThePlane) {
   // To round-off without stress; the stress has other quadrature points in space than in the plane.
   const auto slice = [](const Index<2>& i) { return Place<3>{{i[0], 0, i[1]}, {0, 2, 1}, {1, 1, 1}}; };
   const Block inviscid{.law = "{law: inviscid}"};
-  EXPECT_LE((difference<2, 3>(at_the_wall(inviscid), one_cell_thick(inviscid), slice)), 1e-9);
+  testing::expect_at_most({"space of one cell's thickness, inviscid", "difference to the plane", "0"},
+                          difference<2, 3>(at_the_wall(inviscid), one_cell_thick(inviscid), slice), 1e-9);
 }
 
 TEST(Symmetry, HorizontalAxesMayChangePlaces) {
   const auto swapped = [](const Index<3>& i) { return Place<3>{{i[1], i[0], i[2]}, {1, 0, 2}, {1, 1, 1}}; };
-  EXPECT_LE((difference<3, 3>(in_the_corner({}, false), in_the_corner({}, true), swapped)), 1e-10);
+  testing::expect_at_most({"horizontal axes that change places", "difference", "0"},
+                          difference<3, 3>(in_the_corner({}, false), in_the_corner({}, true), swapped), 1e-10);
 }
 
 /// A few steps of a slug on a grid that is large enough for threads.

@@ -137,15 +137,33 @@ def surface(axes, snapshot):
     axes.set_axis_off()
 
 
+def around(values):
+    """Sum over each cell and its neighbours."""
+    padded = np.pad(values, 1)
+    return sum(padded[k:k + values.shape[0], j:j + values.shape[1], i:i + values.shape[2]] for k, j, i in np.ndindex(3, 3, 3))
+
+
 def tint(snapshot, points):
-    """Colour of the species mixture in the cell of each point."""
+    """Colour of the mixture at each point of the surface: of its cell where that is at least half full, else of the fuller
+    cells around it, since what a cell with next to nothing holds says little."""
     cell = tuple(np.clip(np.searchsorted(snapshot.axes[axis], points[:, "xyz".index(axis)]) - 1, 0,
                          len(snapshot.axes[axis]) - 2) for axis in "zyx")
-    total = np.maximum(snapshot.total_fraction[cell], 1e-12)
-    mixed = np.zeros((len(points), 3))
+    full = snapshot.total_fraction >= 0.5
+    neighbours = around(full.astype(float))[cell]
+    mixed, total = np.zeros((len(points), 3)), np.zeros(len(points))
     for name, colour in zip(snapshot.species, style.species_colours(snapshot.species)):
-        mixed += (snapshot.fraction(name)[cell] / total)[:, None] * colour
-    return np.where(snapshot.total_fraction[cell][:, None] > 1e-12, mixed, style.species_colours(snapshot.species)[0])
+        fraction = snapshot.fraction(name)
+        amount = np.where(full[cell] | (neighbours == 0), fraction[cell], around(np.where(full, fraction, 0))[cell])
+        mixed += amount[:, None] * colour
+        total += amount
+    return mixed / np.maximum(total, 1e-300)[:, None]
+
+
+def height_to_width(snapshot):
+    """Shape of the domain as the viewer sees it."""
+    right, up, _ = projector()
+    corners = np.array([[snapshot.extent(axis)[end] for axis, end in zip("xyz", ends)] for ends in np.ndindex(2, 2, 2)])
+    return np.ptp(corners @ up) / np.ptp(corners @ right)
 
 
 def single(pyplot, snapshot, path):
@@ -169,10 +187,11 @@ def single(pyplot, snapshot, path):
 
 def overview(pyplot, snapshots, path):
     """A page of surfaces."""
-    columns = style.page_columns(len(snapshots), 0.9)
+    aspect = height_to_width(snapshots[0])
+    columns = style.page_columns(len(snapshots), aspect)
     rows = -(-len(snapshots) // columns)
-    figure, grid = pyplot.subplots(rows, columns, figsize=(12, 12 / columns * rows * 0.9 + 0.5), dpi=130, squeeze=False,
-                                   layout="constrained")
+    figure, grid = pyplot.subplots(rows, columns, figsize=(12, 12 / columns * rows * aspect + 0.3 * rows + 0.4), dpi=130,
+                                   squeeze=False, layout="constrained")
     for axes in grid.flat:
         axes.set_axis_off()
     for axes, snapshot in zip(grid.flat, snapshots):

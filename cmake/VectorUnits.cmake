@@ -1,0 +1,12 @@
+# quicksand_vector_units(OUTPUT)
+# The vector units that the compiler uses with -march=native, as a list of its macros.
+function(quicksand_vector_units output)
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=native -dM -E -x c++ /dev/null OUTPUT_VARIABLE macros ERROR_QUIET)
+  set(units "")
+  foreach(unit IN ITEMS __SSE4_2__ __AVX__ __AVX2__ __FMA__ __AVX512F__ __AVX512VL__ __ARM_NEON __ARM_FEATURE_SVE)
+    if(macros MATCHES "#define ${unit} ")
+      list(APPEND units ${unit})
+    endif()
+  endforeach()
+  set(${output} "${units}" PARENT_SCOPE)
+endfunction()

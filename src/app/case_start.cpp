@@ -1,0 +1,80 @@
+#include "app/case_start.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+#include <utility>
+
+#include "app/grid_sequence.hpp"
+#include "app/initial_bubbles.hpp"
+
+namespace quicksand {
+
+namespace {
+
+/// Estimate of the doubles that a run holds per cell, solver hierarchies included: a base, per axis and per species.
+constexpr double base_fields = 60;
+constexpr double fields_per_axis = 30;
+constexpr double fields_per_species = 10;
+
+/// Cells of a grid with its ghosts.
+double allocated_cells(const GridConfig& grid) {
+  double cells = 1;
+  for (const long n : axis_cells(grid)) cells *= static_cast<double>(n + 2 * ghosts);
+  return cells;
+}
+
+}  // namespace
+
+double needed_memory(const CaseConfig& config) {
+  double most_cells = std::max(allocated_cells(config.grid), first_grid_cells(config));
+  for (const StageConfig& stage : config.stages) {
+    most_cells = std::max(most_cells, allocated_cells(grid_of(config, stage)));
+  }
+  const double fields = base_fields + fields_per_axis * config.grid.dimension +
+                        fields_per_species * static_cast<double>(config.species.size());
+  // On its way from one grid to the next a flow is there twice.
+  const double flows = config.stages.empty() && !config.regrid ? 1 : 2;
+  return flows * fields * sizeof(double) * most_cells / 1e6;
+}
+
+double machine_memory() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 1e6;
+}
+
+bool fits(const CaseConfig& config) { return needed_memory(config) <= machine_memory(); }
+
+template <int Dim>
+InitialState<Dim> fill_cells(const CaseConfig& config) {
+  Grid<Dim> grid = GridSequence<Dim>(config).first().grid;
+  InitialState<Dim> state{std::move(grid), {}, {}};
+  state.liquid = CellField(state.grid.layout());
+  const Box<Dim> cells = state.grid.cells();
+  const std::vector<InitialBubble> bubbles = initial_bubbles(config);
+  for (const InitialFill& fill : config.initial) {
+    CellField phi(state.grid.layout());
+    for_each_indexed<Cell>(state.grid.layout(), cells, [&](Cell c, const Index<Dim>& i) {
+      phi[c] = fraction(fill.shape, state.grid, i);
+      for (const InitialBubble& bubble : bubbles) {
+        phi[c] *= 1 - fraction(SphereShape{bubble.center, bubble.radius}, state.grid, i);
+      }
+      state.liquid[c] += phi[c];
+    });
+    state.volumes.push_back(
+        sum<Cell>(state.grid.layout(), cells, [&](Cell c) { return phi[c] * state.grid.volume(c); }));
+  }
+  return state;
+}
+
+std::string brief(double value) {
+  std::ostringstream out;
+  out << std::setprecision(4) << value;
+  return out.str();
+}
+
+template InitialState<2> fill_cells<2>(const CaseConfig&);
+template InitialState<3> fill_cells<3>(const CaseConfig&);
+
+}  // namespace quicksand

@@ -1,0 +1,1 @@
+"""What tools/docs is made of: pages from markdown, their links, the page of verification."""
