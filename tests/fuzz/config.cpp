@@ -56,8 +56,11 @@ void read_text(const std::string& text) {
     require(to_yaml(parse_case(shown, "shown")) == shown, "the case that is shown reads back to another one");
     require(to_yaml(parse_case(explained_case(config), "explained")) == shown,
             "the case that is explained reads back to another one");
+    if (!is_small(config)) return;
+#ifdef QUICKSAND_FUZZ
     // Grids are built for one in eight: that takes longest.
-    if (std::hash<std::string>{}(text) % 8 != 0 || !is_small(config)) return;
+    if (std::hash<std::string>{}(text) % 8 != 0) return;
+#endif
     case_report(config);
     case_warnings(config);
   } catch (const InputError& error) {
