@@ -17,6 +17,8 @@ endif()
 option(QUICKSAND_NATIVE "Compile for this machine's processor" ON)
 option(QUICKSAND_WERROR "Warnings are errors (by default with the compilers the code is tested with)" ${tested_compiler})
 set(QUICKSAND_SANITIZE "" CACHE STRING "Sanitizers, such as address,undefined or thread")
+set(QUICKSAND_SMALLEST_THREADED_LOOP 8192 CACHE STRING "Loops over fewer points run on one thread; less is for tests")
+mark_as_advanced(QUICKSAND_SMALLEST_THREADED_LOOP)
 
 add_library(quicksand_options INTERFACE)
 set_target_properties(quicksand_options PROPERTIES EXPORT_NAME options)
@@ -32,6 +34,8 @@ if(QUICKSAND_SANITIZE)
                                                      -fno-sanitize-recover=all)
   target_link_options(quicksand_options INTERFACE -fsanitize=${QUICKSAND_SANITIZE})
 endif()
+target_compile_definitions(quicksand_options
+                           INTERFACE QUICKSAND_SMALLEST_THREADED_LOOP=${QUICKSAND_SMALLEST_THREADED_LOOP})
 string(REGEX REPLACE "-O2" "-O3" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_RELWITHDEBINFO}")
 
 add_library(quicksand_warnings INTERFACE)

@@ -24,7 +24,7 @@ std::string event_text(const GasEvent& event, double time, double circle) {
       case GasEventKind::absorbed: return bubble + " shrank to nothing; its gas went to " + other;
       case GasEventKind::lost: return bubble + " shrank to nothing; its gas is lost";
     }
-    return bubble;
+    return bubble + " changed";
   };
   return text() + " at t = " + number_text(time) + " (volume " + number_text(circle * event.volume) + ", pressure " +
          number_text(event.pressure) + ")";

@@ -54,9 +54,10 @@ std::vector<fs::path> checkpoints_in(const fs::path& folder) {
 }
 
 ResumePoint open_checkpoint(const fs::path& file) {
-  ResumePoint point{std::make_unique<CheckpointReader>(file), {}};
-  point.head.exchange(*point.reader);
-  return point;
+  auto reader = std::make_unique<CheckpointReader>(file);
+  CheckpointHead head;
+  head.exchange(*reader);
+  return {std::move(reader), std::move(head)};
 }
 
 ResumePoint find_resume_point(const fs::path& folder, const CaseConfig& config,

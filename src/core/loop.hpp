@@ -15,7 +15,7 @@ namespace quicksand {
 namespace detail {
 
 /// Loops over fewer points than this run on one thread: starting a team costs more than they do.
-inline constexpr std::ptrdiff_t smallest_threaded_loop = 8192;
+inline constexpr std::ptrdiff_t smallest_threaded_loop = QUICKSAND_SMALLEST_THREADED_LOOP;
 
 /// Calls body(r) for r in [0, count), in threads where there are `points` enough.
 template <class Body>
