@@ -22,7 +22,7 @@ void carry(Archive& archive, State<Dim>& state) {
 
 /// Refuses numbers of cells and bubbles that are none.
 void check(const Archive& archive, GasState& gas) {
-  const std::vector<int>& region = gas.region.values();
+  const auto& region = gas.region.values();
   const auto cells = static_cast<std::ptrdiff_t>(region.size());
   for (const Cell c : gas.held_open) {
     if (c.n < 0 || c.n >= cells) archive.refuse("gas/held_open", "a cell that the grid does not have");
