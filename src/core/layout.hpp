@@ -33,7 +33,10 @@ class Layout {
   /// Whether the two ends of the box along d are next to each other.
   bool wraps(const Box<Dim>& box, int d) const { return periodic_[d] && box.extent(d) == cells_[d]; }
   /// The position along d that i is a copy of; i itself on axes that are not periodic.
-  int image(int d, int i) const { return periodic_[d] ? (i % cells_[d] + cells_[d]) % cells_[d] : i; }
+  int image(int d, int i) const {
+    const int n = cells_[d];
+    return periodic_[d] && n > 0 ? (i % n + n) % n : i;
+  }
   Index<Dim> image(Index<Dim> i) const {
     for (int d = 0; d < Dim; ++d) i[d] = image(d, i[d]);
     return i;

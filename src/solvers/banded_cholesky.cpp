@@ -23,9 +23,8 @@ template <int Dim>
 int BandOrder<Dim>::number(Index<Dim> i) const {
   int n = 0;
   for (int d = 0; d < Dim; ++d) {
-    const int extent = box_.extent(d);
-    if (extent < 1) return -1;
     if (layout_.wraps(box_, d)) i[d] = layout_.image(d, i[d]);
+    const int extent = box_.extent(d);
     int place = i[d] - box_.lo[d];
     if (place < 0 || place >= extent) return -1;
     if (ring_[d]) place = 2 * place < extent ? 2 * place : 2 * (extent - 1 - place) + 1;
