@@ -1,6 +1,8 @@
 #pragma once
 /// \file
 /// Loops over the elements that carry stress, in packs wherever that is possible.
+#include <algorithm>
+
 #include "core/loop.hpp"
 #include "physics/stress_elements.hpp"
 
@@ -42,7 +44,8 @@ void for_each_active_in_row(const Layout<Dim>& layout, const StressElements<Dim>
   for (int at = end; at < last; ++at) visit(at, 0, double{});
 }
 
-/// Calls body(e) for all active elements of a box, in threads such that a body may write to the element's corners.
+/// Calls body(e) for all active elements of a box, whose cells all have finite velocities, in threads such that a body
+/// may write to the element's corners.
 template <int Dim, class Body>
 void for_each_active_element(const Layout<Dim>& layout, const Box<Dim>& box, const StressElements<Dim>& elements,
                              Body&& body) {
@@ -60,13 +63,14 @@ class ElementMaterial {
       if (!rheology_[l]) continue;
       set_lane(viscosity_, l, rheology_[l]->viscosity);
       nonlinear_ = nonlinear_ || rheology_[l]->is_nonlinear();
-      rigid_ = rigid_ || rheology_[l]->rigid_yield_stress > 0;
+      rigid_ = rigid_ || rigid(l);
     }
   }
   const Real& viscosity() const { return viscosity_; }
-  /// Whether the viscosity depends on the strain rate; whether there is a rigid yield stress.
+  /// Whether the viscosity depends on the strain rate; whether there is a rigid yield stress, and in which lanes.
   bool nonlinear() const { return nonlinear_; }
   bool rigid() const { return rigid_; }
+  bool rigid(int l) const { return rheology_[l] != nullptr && rheology_[l]->rigid_yield_stress > 0; }
   /// Calls body(l, evaluate() at scalar strain rates s) for the lanes that take part.
   template <class Body>
   void evaluate_lanes(const Real& s, Body&& body) const {

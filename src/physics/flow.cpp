@@ -168,7 +168,7 @@ void Flow<Dim>::leave_failed_step(double dt) {
     next_.u = state_.u;
     next_.pressure = state_.pressure;
   }
-  next_.acceleration = state_.acceleration;
+  if (parts_done_ < 7) next_.acceleration = state_.acceleration;
   next_.time = state_.time + dt;
   next_.step = state_.step + 1;
   next_.dt = dt;

@@ -19,8 +19,10 @@ template <int Dim>
 StressFields evaluate_stress(const Flow<Dim>& flow) {
   const Grid<Dim>& grid = flow.domain().grid;
   StressElements<Dim> elements(flow.domain());
-  mark_stress_elements(flow.domain(), flow.parameters().species, flow.state().phi, flow.total(), elements);
   StressFields fields{CellField(grid.layout()), CellField(grid.layout()), CellField(grid.layout())};
+  if (!mark_stress_elements(flow.domain(), flow.parameters().species, flow.state().phi, flow.total(), elements)) {
+    return fields;
+  }
   CellField weights(grid.layout());
   for_each_coloured<Node>(grid.layout(), grid.nodes(), [&](Node n, const Index<Dim>& index) {
     if (!elements.active[n]) return;

@@ -45,7 +45,7 @@ double concentration_factor(double kappa, double c) {
 
 template <int Dim>
 void StressElements<Dim>::acquire(const Layout<Dim>& layout) {
-  if (active.size() > 0) return;
+  if (part.size() > 0) return;
   active = NodeMask(layout);
   rheology = Field<Node, Rheology>(layout);
   share = part = NodeField(layout);
@@ -61,11 +61,11 @@ void StressElements<Dim>::release() {
 template <int Dim>
 bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>& species, const Fractions& phi,
                           const CellField& total, StressElements<Dim>& elements) {
-  elements.acquire(domain.layout());
   std::vector<Rheology> pure;
   for (const Species& s : species) pure.push_back(rheology(s.law));
-  elements.active.fill(0);
   if (std::none_of(pure.begin(), pure.end(), [](const Rheology& r) { return r.carries_stress(); })) return false;
+  elements.acquire(domain.layout());
+  elements.active.fill(0);
 
   const Grid<Dim>& grid = domain.grid;
   const Layout<Dim>& layout = domain.layout();

@@ -59,7 +59,7 @@ struct PointRates {
   }
 };
 
-/// Stresses become forces on the cells: those of a linear law, weight times viscosity times strain rate.
+/// Stresses at the points of an element, times their weights, become forces on the cells.
 template <int Dim, class Real>
 [[gnu::always_inline]] inline void scatter_stress(const DualElement<Dim, Real>& e,
                                                   const StrainRate<Dim, Real> (&stress)[point_count<Dim>],
@@ -143,7 +143,7 @@ FunctionalValue evaluate_functional(const Domain<Dim>& domain, const CellVectors
       if (material.rigid()) {
         Real point_gap{};
         for (int l = 0; l < lanes<Real>; ++l) {
-          if (!e.on(l)) continue;
+          if (!material.rigid(l)) continue;
           const RigidYield<Dim> rigid = work.rigid_yield(e.node + Step{l}, q, lane(s, l));
           set_lane(stress, l, rigid.stress);
           set_lane(point_potential, l, lane(point_potential, l) + rigid.potential);
@@ -213,7 +213,7 @@ void assemble_matrix(const Domain<Dim>& domain, const CellVectors<Dim>& u, doubl
         StrainRate<Dim, Real> stress{};
         Real plastic{};
         for (int l = 0; l < lanes<Real>; ++l) {
-          if (!e.on(l)) continue;
+          if (!material.rigid(l)) continue;
           const RigidYield<Dim> rigid = work.rigid_yield(e.node + Step{l}, q, lane(s, l));
           set_lane(f, l, lane(f, l) + rigid.f);
           const StrainRate<Dim>& own = work.rigid_stress[e.node + Step{l}].at[q];
