@@ -209,8 +209,8 @@ double stress_of(Domain<Dim> domain, const Vec<Dim>& centre, Velocity&& velocity
   const CellVectors<Dim> g = setup.gradient(setup.u_hat);
   double largest = 0;
   for (int d = 0; d < Dim; ++d) {
-    for_each<Cell>(setup.domain.layout(), setup.domain.grid.cells(),
-                   [&](Cell c) { largest = std::max(largest, std::abs(g[d][c]) / setup.domain.grid.volume(c)); });
+    largest = maximum<Cell>(setup.domain.layout(), setup.domain.grid.cells(), largest,
+                            [&](Cell c) { return std::abs(g[d][c]) / setup.domain.grid.volume(c); });
   }
   return largest;
 }
@@ -253,9 +253,9 @@ TEST(PhysicsViscous, SharesOfTheElementsAddUpToTheLiquid) {
       return testing::ball<Dim>(d, species, centre, 0.3);
     });
     const StressElements<Dim>& elements = setup.work.elements;
-    double total = 0;
-    for_each_indexed<Node>(setup.domain.layout(), setup.domain.grid.nodes(), [&](Node n, const Index<Dim>& i) {
-      if (elements.active[n]) total += elements.share[n] * elements.mesh.element(n, i).volume();
+    const Layout<Dim>& layout = setup.domain.layout();
+    const double total = sum<Node>(layout, setup.domain.grid.nodes(), [&](Node n) {
+      return elements.active[n] ? elements.share[n] * elements.mesh.element(n, layout.multi(n.n)).volume() : 0.0;
     });
     // Elements average the fractions of their corners: equal to the integral up to the weights on stretched or radial
     // axes.

@@ -43,11 +43,8 @@ double largest_apply_error(const StencilMatrix<Dim, At>& matrix) {
   Field<At> x = rough_field(matrix);
   Field<At> y(matrix.layout);
   matrix.apply(x, y);
-  double error = 0;
-  for_each_coloured<At>(matrix.layout, matrix.box, [&](At p, const Index<Dim>& i) {
-    error = std::fmax(error, std::abs(y[p] - naive_row(matrix, x, i)));
-  });
-  return error;
+  return maximum<At>(matrix.layout, matrix.box, 0.0,
+                     [&](At p) { return std::abs(y[p] - naive_row(matrix, x, matrix.layout.multi(p.n))); });
 }
 
 Grid<2> graded_grid_2d() { return Grid<2>({graded_axis(9, 4), graded_axis(7, 3)}, Geometry::planar); }

@@ -31,8 +31,8 @@ template <int Dim, class Inside>
 StencilMatrix<Dim, Cell> cell_laplacian(const Grid<Dim>& grid, Inside&& inside, bool dirichlet_on_faces = false) {
   StencilMatrix<Dim, Cell> matrix(grid.layout(), Stencil::star);
   for (int d = 0; d < Dim; ++d) {
-    for_each_indexed<Cell>(grid.layout(), grid.faces(d), [&](Cell high, const Index<Dim>& i) {
-      if (i[d] == grid.owned_cells()[d] || (i[d] == 0 && !grid.layout().periodic(d))) return;
+    for_each_coloured<Cell>(grid.layout(), grid.cells(), [&](Cell high, const Index<Dim>& i) {
+      if (i[d] == 0 && !grid.layout().periodic(d)) return;
       Index<Dim> below = i;
       below[d] = grid.layout().image(d, i[d] - 1);
       const Cell low = grid.cell(below);
