@@ -37,7 +37,7 @@ std::string paragraph(const KeyDescription& key) {
   std::vector<std::string> facts;
   if (key.value != "mapping") facts.push_back(key.value);
   if (!key.standard.empty()) facts.push_back("default " + key.standard);
-  if (key.required) facts.push_back("required");
+  if (key.required) facts.emplace_back("required");
   std::string text = key.meaning;
   for (const std::string& fact : facts) text += (&fact == &facts.front() ? " [" : "; ") + fact;
   if (!facts.empty()) text += "]";

@@ -32,7 +32,7 @@ std::string range_text(const ConfigNode& schema) {
 }
 
 std::string type_text(const ConfigNode& schema) {
-  const std::string type = text_of(schema, "type");
+  std::string type = text_of(schema, "type");
   if (type == "integer") return "whole number";
   if (type == "boolean") return "true or false";
   if (type == "string") return "text";

@@ -1,4 +1,5 @@
 """Shipped cases fit the schema that the program prints, wrong ones do not, and the user guide names no unknown key.
+What is no case ends the program with code 2 and a message that names its place.
 
 usage: schema_test.py QUICKSAND SOURCE_FOLDER
 """
@@ -8,6 +9,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 NO_KEYS = {"history.csv", "case.yaml", "summary.json", "crater.csv", "crater_profiles.csv", "bubbles.csv", "events.csv", "fields.xdmf", "report.html"}
 
@@ -39,7 +41,7 @@ def check_guide(guide, keys):
     """Keys in the tables of the sections of the case file, and dotted keys anywhere in them."""
     ends = {".".join(key.split(".")[n:]) for key in keys for n in range(key.count(".") + 1)}
     text = guide.read_text()
-    part = text[text.index("## The case file") : text.index("## Results")]
+    part = text[text.index("## The case file") :]
     unknown = []
     for line in part.splitlines():
         row = re.match(r"\| (`[^|]*`) \|", line)
@@ -50,6 +52,30 @@ def check_guide(guide, keys):
     words = {"axis", "symmetry", "free_slip", "no_slip", "periodic", "inviscid", "newtonian", "bingham", "papanastasiou", "herschel_bulkley", "casson"}
     unknown = sorted(set(unknown) - words)
     assert not unknown, f"the user guide names unknown keys: {unknown}"
+
+
+def check_refusals(quicksand):
+    """The program on files that are no cases."""
+    wrong = [
+        (b"", "is empty"),
+        (b"\x7fELF\0\1", "is not a text file"),
+        (b"title: [", ":1:"),
+        (b"- 1\n- 2\n", ":1:1: must be a mapping of keys"),
+        (b"titel: a\n", ":1:1: titel: unknown key; did you mean 'title'?"),
+        (b"title: \"a\n", ":1:8: not valid YAML: the quote that begins here is never closed"),
+        (b"[" * 100000, "not valid YAML"),
+        (None, "is a folder"),
+    ]
+    with tempfile.TemporaryDirectory() as folder:
+        for content, message in wrong:
+            path = pathlib.Path(folder)
+            if content is not None:
+                path = path / "case.yaml"
+                path.write_bytes(content)
+            for command in ("check", "show", "run"):
+                done = subprocess.run([quicksand, command, str(path)], capture_output=True, text=True, cwd=folder, timeout=20)
+                assert done.returncode == 2, (content, command, done)
+                assert str(path) in done.stderr and message in done.stderr, (content, done.stderr)
 
 
 def plain(value):
@@ -64,7 +90,8 @@ def plain(value):
 
 
 def main():
-    quicksand, source = sys.argv[1], pathlib.Path(sys.argv[2])
+    quicksand, source = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2])
+    check_refusals(quicksand)
     schema = json.loads(subprocess.run([quicksand, "schema"], check=True, capture_output=True, text=True).stdout)
     check_descriptions(schema)
     check_guide(source / "docs/user_guide.md", keys_of(schema))

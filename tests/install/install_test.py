@@ -79,7 +79,7 @@ class Install(unittest.TestCase):
 
     def test_completion_of_options(self):
         self.assertEqual(self.complete("run", "case_e.yaml", "--res"), ["--resume"])
-        self.assertEqual(sorted(self.complete("check", "--")), ["--help", "--set"])
+        self.assertEqual(sorted(self.complete("check", "--")), ["--help", "--set", "--strict"])
 
     def test_completion_of_case_files(self):
         self.assertIn("case_e.yaml", self.complete("run", ""))
