@@ -1,12 +1,31 @@
 #include "core/threads.hpp"
 
 #include <omp.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <initializer_list>
+#include <vector>
 
 namespace quicksand {
+
+namespace {
+
+/// Undoes what OpenMP has done where threads are to be bound: it has tied this thread to one processor, which would be
+/// the only one that a program started anew finds.
+void untie() {
+  cpu_set_t processors;
+  CPU_ZERO(&processors);
+  for (int place = 0; place < omp_get_num_places(); ++place) {
+    std::vector<int> ids(static_cast<std::size_t>(omp_get_place_num_procs(place)));
+    omp_get_place_proc_ids(place, ids.data());
+    for (const int id : ids) CPU_SET(static_cast<std::size_t>(id), &processors);
+  }
+  if (CPU_COUNT(&processors) > 0) ::sched_setaffinity(0, sizeof processors, &processors);
+}
+
+}  // namespace
 
 void start_with_patient_threads(char** arguments) {
   // libgomp's count of rounds; a loop of the smallest size that is shared among threads takes about as long.
@@ -16,6 +35,7 @@ void start_with_patient_threads(char** arguments) {
   }
   ::setenv("GOMP_SPINCOUNT", spin_rounds, 1);
   ::setenv("KMP_BLOCKTIME", "0", 1);  // clang's library
+  untie();
   ::execv("/proc/self/exe", arguments);
   // Where that is not possible the program goes on as it is.
 }
