@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,18 +17,20 @@ namespace quicksand {
 
 namespace detail {
 
-/// Leaves new numbers unset: memory lies close to the processor that writes to it first, which is to be the one whose
-/// thread works on that part of a field.
+/// Leaves new values unset, for a field to set them: memory that is new to the process lies close to the processor that
+/// writes to it first, which is to be the one whose thread works on that part of a field.
 template <class T>
 struct UntouchedAllocator : std::allocator<T> {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
   template <class U>
   struct rebind {
     using other = UntouchedAllocator<U>;
   };
+  UntouchedAllocator() = default;
   template <class U>
-  void construct(U* place) {
-    ::new (static_cast<void*>(place)) U;
-  }
+  UntouchedAllocator(const UntouchedAllocator<U>&) noexcept {}
+  template <class U>
+  void construct(U*) noexcept {}
   template <class U, class... Arguments>
   void construct(U* place, Arguments&&... arguments) {
     ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
@@ -49,6 +52,7 @@ class Field {
   }
   Field(const Field& other) : values_(other.values_.size()) { copy(other); }
   Field& operator=(const Field& other) {
+    if (this == &other) return *this;
     values_.resize(other.values_.size());
     copy(other);
     return *this;

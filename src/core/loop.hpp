@@ -32,7 +32,7 @@ void for_each_number(std::ptrdiff_t count, std::ptrdiff_t points, Body&& body) {
 
 }  // namespace detail
 
-/// Rows (runs along x) of a box, numbered 0 ... count-1; for serial loops in a fixed order.
+/// Rows (runs along x) of a box, numbered 0 ... count-1: for loops over rows in threads, or serial in a fixed order.
 template <int Dim>
 struct Rows {
   const Layout<Dim>& layout;
@@ -100,14 +100,15 @@ struct ColouredAxis {
   }
 };
 
-/// Calls body(Index) in threads for every point of a colour on the axes from `lowest` on, index[d] = box.lo[d] on those
-/// below; one call of body counts as `points` points.
-template <int lowest, int Dim, class Body>
-void for_each_of_colour(const Layout<Dim>& layout, const Box<Dim>& box, int pass, std::ptrdiff_t points, Body&& body) {
+/// Calls body(Index) in threads for the first point of every row of a colour, which is one on each axis but x; a row
+/// counts as `points` points.
+template <int Dim, class Body>
+void for_each_row_of_colour(const Layout<Dim>& layout, const Box<Dim>& box, int pass, std::ptrdiff_t points,
+                            Body&& body) {
   Index<Dim> first = box.lo;
   Index<Dim> n;
   std::ptrdiff_t count = 1;
-  for (int d = lowest, rest = pass; d < Dim; ++d, rest /= 3) {
+  for (int d = 1, rest = pass; d < Dim; ++d, rest /= 3) {
     const ColouredAxis axis(layout, box, d, rest % 3);
     first[d] = axis.first;
     n[d] = axis.count;
@@ -115,7 +116,7 @@ void for_each_of_colour(const Layout<Dim>& layout, const Box<Dim>& box, int pass
   }
   for_each_number(count, count * points, [&](std::ptrdiff_t r) {
     Index<Dim> index = first;
-    for (int d = lowest; d < Dim; ++d) {
+    for (int d = 1; d < Dim; ++d) {
       index[d] += 2 * static_cast<int>(r % n[d]);
       r /= n[d];
     }
@@ -134,7 +135,7 @@ void for_each_coloured(const Layout<Dim>& layout, const Box<Dim>& box, Body&& bo
   for (int pass = 0; pass < passes; ++pass) {
     const detail::ColouredAxis row(layout, box, 0, pass % 3);
     if (row.count == 0) continue;
-    detail::for_each_of_colour<1>(layout, box, pass / 3, row.count * (1 << Dim), [&](Index<Dim> index) {
+    detail::for_each_row_of_colour(layout, box, pass / 3, row.count * (1 << Dim), [&](Index<Dim> index) {
       index[0] = row.first;
       const std::ptrdiff_t start = layout.flat(index);
       for (int i = 0; i < row.count; ++i, index[0] += 2) body(At{start + 2 * i}, index);
@@ -149,7 +150,7 @@ void for_each_coloured_row(const Layout<Dim>& layout, const Box<Dim>& box, Body&
   constexpr int passes = Dim == 2 ? 3 : 9;
   if (box.empty()) return;
   for (int pass = 0; pass < passes; ++pass) {
-    detail::for_each_of_colour<1>(layout, box, pass, box.extent(0) * (1 << Dim), body);
+    detail::for_each_row_of_colour(layout, box, pass, box.extent(0) * (1 << Dim), body);
   }
 }
 

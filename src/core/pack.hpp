@@ -1,7 +1,8 @@
 #pragma once
 /// \file
 /// Packs: a few numbers side by side that are computed with at once, in one register of the processor. Templates on a
-/// type `Real` work on one number (double) or on a pack of them, with the same result in every lane, bit by bit.
+/// type `Real` work on one number (double) or on a pack of them, with the same result in every lane, bit by bit. Sums
+/// over the elements around a point may be taken in another order in packs.
 #include <cmath>
 #include <cstddef>
 #include <cstring>

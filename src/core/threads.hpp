@@ -25,8 +25,8 @@ void run_team(std::ptrdiff_t count, LoopPart part, const void* body);
 
 }  // namespace detail
 
-/// Calls body(first, last) on every thread, for equal parts of [0, count) in order. What a body throws ends the
-/// program.
+/// Calls body(first, last) on every thread, for equal parts of [0, count) in order. Bodies must not throw: with more
+/// than one thread that ends the program.
 template <class Body>
 void share_among_threads(std::ptrdiff_t count, const Body& body) {
   detail::run_team(

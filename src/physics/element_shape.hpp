@@ -2,10 +2,8 @@
 /// \file
 /// Strain rates and forces of single elements: bilinear (trilinear) on a box, evaluated at the mid-points of its edges.
 ///
-/// `Real` is double, or Pack for elements side by side along x, as many as a pack has numbers. Functions of packs are
-/// inlined whatever their size: what a caller does not use then costs nothing, and packs stay in registers.
-#include <cmath>
-
+/// `Real` is double, or Pack for elements side by side along x, as many as a pack has numbers. Strain rates and forces
+/// are inlined whatever their size: what a caller does not use then costs nothing, and packs stay in registers.
 #include "core/pack.hpp"
 
 namespace quicksand {

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/dual_element.hpp"
+#include "physics/element_shape.hpp"
 
 namespace quicksand {
 

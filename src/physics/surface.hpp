@@ -6,9 +6,12 @@
 /// Deviates from the report, whose limited slopes smear the surface of a falling body over six cells within a second;
 /// see docs/numerics.md for what that does to the slug. Planes may overfill or overdraw a cell where they turn within a
 /// step: the redistribution and the outflow limit take care of both, so no direction splitting is needed.
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/domain.hpp"
+#include "core/loop.hpp"
 #include "physics/plane.hpp"
 
 namespace quicksand {
@@ -34,7 +37,7 @@ class Surface {
   template <class Candidate, class FindPlane>
   void find(const Layout<Dim>& layout, const Box<Dim>& box, Candidate&& candidate, FindPlane&& plane) {
     number_.fill(uncut);
-    int count = 0;
+    int count = 0;  // in order of the cells, whatever the number of threads: serial
     const Rows<Dim> rows(layout, box);
     for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
       const std::ptrdiff_t start = rows.start(r);

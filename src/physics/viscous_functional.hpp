@@ -59,11 +59,11 @@ Box<Dim> elements_around(const Grid<Dim>& grid, Box<Dim> cells) {
   return intersect(cells, grid.nodes());
 }
 
-/// Calls body(node, element, rates) for every active element, `rates` the strain rates of velocities u at its points,
-/// in threads over elements.
+/// Calls body(node, element, q, Delta) for every stress point with weight, Delta its strain rate at velocities u; in
+/// threads over elements.
 template <int Dim, class Body>
-void for_each_stress_element(const Domain<Dim>& domain, const CellVectors<Dim>& u, DiffusionWork<Dim>& work,
-                             Body&& body) {
+void for_each_stress_point(const Domain<Dim>& domain, const CellVectors<Dim>& u, DiffusionWork<Dim>& work,
+                           Body&& body) {
   const Box<Dim> elements = elements_around(domain.grid, work.matrix.box());
   for_each_indexed<Node>(domain.layout(), elements, [&](Node n, const Index<Dim>& index) {
     if (!work.elements.active[n]) return;
@@ -72,15 +72,6 @@ void for_each_stress_element(const Domain<Dim>& domain, const CellVectors<Dim>& 
     gather(e, u, corner);
     StrainRate<Dim> rates[point_count<Dim>];
     strain_rates(e, corner, rates);
-    body(n, e, rates);
-  });
-}
-
-/// Calls body(node, element, q, Delta) for every stress point with weight.
-template <int Dim, class Body>
-void for_each_stress_point(const Domain<Dim>& domain, const CellVectors<Dim>& u, DiffusionWork<Dim>& work,
-                           Body&& body) {
-  for_each_stress_element(domain, u, work, [&](Node n, const DualElement<Dim>& e, const auto& rates) {
     for (int q = 0; q < point_count<Dim>; ++q) {
       if (e.weight(q) > 0) body(n, e, q, rates[q]);
     }

@@ -86,6 +86,20 @@ SolveReport solve_definite(const StencilMatrix<Dim, At>& matrix, const Field<At>
   return report;
 }
 
+/// Doubles one diagonal for a while, which makes a singular matrix definite.
+template <int Dim, class At>
+class Pin {
+ public:
+  Pin(StencilMatrix<Dim, At>& matrix, At at) : entry_(matrix.diagonal[at]), value_(entry_) { entry_ *= 2; }
+  ~Pin() { entry_ = value_; }
+  Pin(const Pin&) = delete;
+  Pin& operator=(const Pin&) = delete;
+
+ private:
+  double& entry_;
+  double value_;
+};
+
 }  // namespace
 
 template <int Dim, class At>
@@ -107,16 +121,14 @@ SolveReport solve(StencilMatrix<Dim, At>& matrix, const Field<At>& b, Field<At>&
     return nothing;
   }
   if (!is_singular(matrix)) return solve_definite(matrix, b, x, options);
-  // Doubling one diagonal makes the matrix definite; for a consistent right-hand side it picks the solution that is
+  // With one diagonal doubled the matrix is definite; for a consistent right-hand side it picks the solution that is
   // zero at that point. So is the guess made, lest a good one look bad.
-  const At pin = first_coupled(matrix);
-  const double diagonal = matrix.diagonal[pin];
-  matrix.diagonal[pin] *= 2;
-  subtract(matrix, x[pin], x);
+  const At at = first_coupled(matrix);
+  subtract(matrix, x[at], x);
   Field<At> consistent = b;
   remove_mean(matrix, consistent);
+  const Pin<Dim, At> pin(matrix, at);
   const SolveReport report = solve_definite(matrix, consistent, x, options);
-  matrix.diagonal[pin] = diagonal;
   remove_mean(matrix, x);
   return report;
 }

@@ -59,7 +59,8 @@ template <int Dim, class At>
 struct EdgeSum {
   static constexpr std::size_t slanting = Dim == 2 ? 4 : 16;
   const double* own;
-  std::array<const double*, slanting> coefficient;  ///< at the high end
+  std::array<const double*, slanting> coefficient;
+  std::array<std::ptrdiff_t, slanting> place;  ///< of the coefficient, from the high end
 
   EdgeSum(const StencilMatrix<Dim, At>& matrix, int d) : own(&matrix.lower[static_cast<std::size_t>(d)][At{0}]) {
     const std::ptrdiff_t to_low = -matrix.layout.step(d).n;
@@ -68,15 +69,16 @@ struct EdgeSum {
       const int towards = matrix.offsets[e][d];
       if (towards == 0) continue;
       // Couplings of the high end that lead down along d, and of the low end that lead up.
-      const double* const lower = &matrix.lower[e][At{0}];
+      coefficient[k] = coefficient[k + 1] = &matrix.lower[e][At{0}];
       const std::ptrdiff_t up = matrix.steps[e].n;
-      coefficient[k++] = lower + (towards < 0 ? 0 : up);
-      coefficient[k++] = lower + to_low + (towards < 0 ? up : 0);
+      place[k] = towards < 0 ? 0 : up;
+      place[k + 1] = to_low + (towards < 0 ? up : 0);
+      k += 2;
     }
   }
   double at(std::ptrdiff_t p) const {
     double total = 0;
-    for (std::size_t k = 0; k < slanting; ++k) total += coefficient[k][p];
+    for (std::size_t k = 0; k < slanting; ++k) total += coefficient[k][p + place[k]];
     return own[p] + total / 2;
   }
 };

@@ -211,5 +211,33 @@ TEST(PhysicsRedistribution, AClosedBoxWithoutRoomIsRefused) {
   EXPECT_THROW(lump.redistribute(), NumericalError);
 }
 
+/// A pile that is too high along x, the same all along a ring of n cells round y.
+Lump<2> pile_on_ring(int n) {
+  const Grid<2> grid{{testing::uniform_axis(16), testing::uniform_axis(n, 0, 0.1 * n)}, Geometry::planar};
+  Sides<2> sides = testing::all_sides(grid, SideKind::free_slip);
+  sides.at(1, 0).kind = sides.at(1, 1).kind = SideKind::periodic;
+  Lump<2> pile(Domain<2>(grid, sides), {0.5, 0.0}, 1);
+  testing::set_cells(pile.domain.grid, pile.mixture.phi[0],
+                     [](const Vec<2>& x) { return std::clamp(1.5 - 5 * std::abs(x[0] - 0.5), 0.0, 1.4); });
+  for (int d = 0; d < 2; ++d) {
+    testing::set_cells(pile.domain.grid, pile.u_tilde[d], [&](const Vec<2>& x) { return std::sin(9 * x[0] + d); });
+  }
+  pile.redistribute();
+  return pile;
+}
+
+TEST(PhysicsRedistribution, TheNumberOfCellsRoundARingDoesNotMatter) {
+  const Lump<2> one = pile_on_ring(1);
+  for (const int n : {2, 3}) {
+    const Lump<2> more = pile_on_ring(n);
+    for (int i = 0; i < 16; ++i) {
+      for (int d = 0; d < 2; ++d) {
+        EXPECT_NEAR(one.u_bar[d][one.domain.grid.cell({i, 0})], more.u_bar[d][more.domain.grid.cell({i, 1})], 1e-9);
+      }
+    }
+    for (int d = 0; d < 2; ++d) EXPECT_NEAR(n * one.total_momentum(d), more.total_momentum(d), 1e-10);
+  }
+}
+
 }  // namespace
 }  // namespace quicksand
