@@ -160,6 +160,7 @@ void register_kernels(int n) {
   const auto viscous = [](bool assemble) {
     return [=](Bed<Dim>& bed) {
       auto work = std::make_shared<DiffusionWork<Dim>>(bed.domain, bed.mixture.species);
+      work->acquire(bed.domain.layout());
       mark_stress_elements(bed.domain, bed.mixture.species, bed.mixture.phi, bed.mixture.total, work->elements);
       work->matrix.set_box(bed.domain.grid.cells());
       return [&bed, work, assemble, g = bed.u]() mutable {

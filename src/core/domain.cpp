@@ -75,7 +75,8 @@ Domain<Dim>::Domain(const Grid<Dim>& g, const Sides<Dim>& s)
       beyond(grid.layout(), Beyond::nothing),
       side_velocities(grid, sides) {
   for (int d = 0; d < Dim; ++d) {
-    for_each<Face>(layout(), grow(grid.faces(d), 1), [&](Face f) { aperture[d][f] = grid.area(d, f); });
+    for_each_indexed<Face>(layout(), grow(grid.faces(d), 1),
+                           [&](Face f, const Index<Dim>& i) { aperture[d][f] = grid.area(d, i); });
     for (int side = 0; side < 2; ++side) {
       if (is_passable(sides.at(d, side))) continue;
       for_each<Face>(layout(), side_faces(d, side), [&](Face f) { aperture[d][f] = 0; });

@@ -111,24 +111,25 @@ void Grid<Dim>::store_axis(int d) {
 template <int Dim>
 void Grid<Dim>::store_metrics() {
   volume_ = CellField(layout_);
-  area_ = FaceScalars<Dim>(layout_);
   width_ = CellVectors<Dim>(layout_);
   for_each_indexed<Cell>(layout_, grow(cells(), ghosts), [&](Cell c, const Index<Dim>& i) {
     // |r|: ghost cells beyond the axis mirror those inside.
-    const double cell_weight = axisymmetric() ? std::abs(centre_position(0, i[0])) : 1.0;
-    const double face_weight = axisymmetric() ? std::abs(face_position(0, i[0])) : 1.0;
-    double volume = cell_weight;
+    volume_[c] = axisymmetric() ? std::abs(centre_position(0, i[0])) : 1.0;
     for (int d = 0; d < Dim; ++d) {
-      volume *= width_1d(d, i[d]);
       width_[d][c] = width_1d(d, i[d]);
-      double area = d == 0 ? face_weight : cell_weight;
-      for (int e = 0; e < Dim; ++e) {
-        if (e != d) area *= width_1d(e, i[e]);
-      }
-      area_[d][low_face(c)] = area;
+      volume_[c] *= width_[d][c];
     }
-    volume_[c] = volume;
   });
+}
+
+template <int Dim>
+double Grid<Dim>::area(int d, const Index<Dim>& i) const {
+  double area = 1;
+  if (axisymmetric()) area = std::abs(d == 0 ? face_position(0, i[0]) : centre_position(0, i[0]));
+  for (int e = 0; e < Dim; ++e) {
+    if (e != d) area *= width_1d(e, i[e]);
+  }
+  return area;
 }
 
 template <int Dim>

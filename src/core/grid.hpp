@@ -63,7 +63,6 @@ class Grid {
   Cell cell(const Index<Dim>& i) const { return {layout_.flat(i)}; }
 
   double volume(Cell c) const { return volume_[c]; }
-  double area(int d, Face f) const { return area_[d][f]; }
   double width(int d, Cell c) const { return width_[d][c]; }
   const CellField& volumes() const { return volume_; }
 
@@ -73,6 +72,8 @@ class Grid {
   double width_1d(int d, int i) const { return axes_[at(d)].width[at(i + ghosts)]; }
   const LineElement& line_element(int d, int i) const { return axes_[at(d)].element[at(i + ghosts)]; }
   Vec<Dim> centre(const Index<Dim>& i) const;
+  /// Area of the low face along d of the cell with index i, ghosts included.
+  double area(int d, const Index<Dim>& i) const;
 
   /// Face coordinates of the whole domain along d.
   const std::vector<double>& global_faces(int d) const { return global_faces_[at(d)]; }
@@ -95,7 +96,6 @@ class Grid {
   Layout<Dim> layout_;
   std::array<Axis, Dim> axes_;
   CellField volume_;
-  FaceScalars<Dim> area_;
   CellVectors<Dim> width_;
   double smallest_width_ = 0;
 };

@@ -58,6 +58,12 @@ template <int Dim, class Real>
 class ElementMaterial {
  public:
   ElementMaterial(const StressElements<Dim>& elements, const ActiveElement<Dim, Real>& e) {
+    if (elements.newtonian()) {
+      for (int l = 0; l < lanes<Real>; ++l) {
+        if (e.on(l)) set_lane(viscosity_, l, elements.viscosity[e.node + Step{l}]);
+      }
+      return;
+    }
     for (int l = 0; l < lanes<Real>; ++l) {
       rheology_[l] = e.on(l) ? &elements.rheology[e.node + Step{l}] : nullptr;
       if (!rheology_[l]) continue;
@@ -80,7 +86,7 @@ class ElementMaterial {
   }
 
  private:
-  const Rheology* rheology_[lanes<Real>];
+  const Rheology* rheology_[lanes<Real>] = {};
   Real viscosity_{};
   bool nonlinear_ = false;
   bool rigid_ = false;

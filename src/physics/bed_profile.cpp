@@ -113,7 +113,7 @@ BedProfile<Dim> bed_profile(const Domain<Dim>& domain, const CellField& phi) {
     while (highest > 0 && !bed[cell(highest - 1)]) --highest;
     profile.surface[column] = surface_below(grid, end, fraction);
     profile.top[column] = std::max(surface_below(grid, highest, fraction), profile.surface[column]);
-    profile.area[column] = images * grid.area(up, low_face(c));
+    profile.area[column] = images * grid.area(up, i);
   });
   return profile;
 }

@@ -194,6 +194,7 @@ void split_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in,
                       FaceVelocities<Dim>& velocities) {
   const Grid<Dim>& grid = domain.grid;
   const Reconstruction<Dim> reconstruction(grid, in.total);
+  velocities.from_low = velocities.from_high = FaceScalars<Dim>(domain.layout());
   for (int d = 0; d < Dim; ++d) {
     for_each<Face>(domain.layout(), grid.faces(d), [&](Face f) {
       const Cell high = high_cell(f);

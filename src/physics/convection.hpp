@@ -26,14 +26,14 @@ struct ConvectionInput {
   const Interfaces<Dim>& interfaces;     ///< planes of phi
 };
 
-/// Velocities at the faces: `mac` for the projection, and what crosses a face from either side.
+/// Velocities at the faces: `mac` for the projection, and what crosses a face from either side after that.
 template <int Dim>
 struct FaceVelocities {
   FaceScalars<Dim> mac;        ///< normal velocity, divergence-free in D after the MAC projection
   FaceScalars<Dim> from_low;   ///< velocity >= 0 at which the cell below the face gives its content upwards
   FaceScalars<Dim> from_high;  ///< velocity <= 0 at which the cell above the face gives its content downwards
 
-  explicit FaceVelocities(const Layout<Dim>& layout) : mac(layout), from_low(layout), from_high(layout) {}
+  explicit FaceVelocities(const Layout<Dim>& layout) : mac(layout) {}
 };
 
 /// Work arrays of the convection phase.

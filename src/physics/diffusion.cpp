@@ -87,7 +87,6 @@ bool has_rigid_plasticity(const Species& s) { return rheology(s.law).rigid_yield
 template <int Dim>
 DiffusionWork<Dim>::DiffusionWork(const Domain<Dim>& domain, const std::vector<Species>& species)
     : elements(domain), matrix(domain.layout()) {
-  acquire(domain.layout());
   if (std::any_of(species.begin(), species.end(), has_smooth_plasticity)) {
     stress = Field<Node, PointStresses<Dim>>(domain.layout());
   }
@@ -102,7 +101,7 @@ void DiffusionWork<Dim>::acquire(const Layout<Dim>& layout) {
   for (NodeField* field : {&potential, &gap}) {
     if (field->size() == 0) *field = NodeField(layout);
   }
-  for (CellVectors<Dim>* vectors : {&mass, &gradient, &trial_gradient, &update, &trial}) {
+  for (CellVectors<Dim>* vectors : {&mass, &gradient, &trial_gradient, &update}) {
     if ((*vectors)[0].size() == 0) *vectors = CellVectors<Dim>(layout);
   }
 }

@@ -67,7 +67,8 @@ struct DiffusionWork {
   /// m of each component in cells that take part, 0 elsewhere. A wall that holds a component takes the quarter of the
   /// cell next to it.
   CellVectors<Dim> mass;
-  CellVectors<Dim> gradient, trial_gradient, update, trial;
+  CellVectors<Dim> gradient, trial_gradient, update;
+  CellVectors<Dim> trial;  ///< of nonlinear iterations, which make it
 
   /// Makes the arrays that live within one step only, and gives them back.
   void acquire(const Layout<Dim>& layout);

@@ -73,12 +73,10 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       interfaces_(domain_.layout(), parameters_.species.size()),
       elements_(domain_.layout()),
       u_hat_(domain_.layout()),
-      lagged_(domain_.layout()),
       mac_(domain_.layout()),
       redistribution_(domain_, parameters_.species),
       diffusion_(domain_, parameters_.species),
       gas_labels_(domain_.layout()),
-      gas_pressure_(domain_.layout()),
       outer_pressure_(domain_.layout(), parameters_.ambient_pressure) {
   state_.pressure.fill(parameters_.ambient_pressure);
 }
@@ -112,7 +110,7 @@ void Flow<Dim>::initialize() {
     start_gas(domain_, gas_parameters(), total_, gas_labels_, state_.gas);
     hold_open(domain_.grid, state_.gas, liquid_);
   }
-  gas_pressure_on_nodes(domain_, gas_parameters(), state_.gas, liquid_, false, gas_pressure_, outer_pressure_);
+  gas_pressure_on_nodes(domain_, gas_parameters(), state_.gas, liquid_, false, outer_pressure_);
   set_open_pressures(domain_, outer_pressure_);
   find_elements(state_, total_, interfaces_, elements_);
   // The pressure that balances gravity as the velocities stand: what is at rest stays so from the first step on.
@@ -245,8 +243,8 @@ StepReport Flow<Dim>::step(double dt) {
   multiplier_before_ = diffusion_.multiplier;
   penalty_before_ = diffusion_.penalty;
 
-  for (int d = 0; d < Dim; ++d) lagged_[d].fill(0);
-  add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -1.0, lagged_);
+  CellVectors<Dim> lagged(domain_.layout());
+  add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -1.0, lagged);
   {
     const ConvectionInput<Dim> in{state_.phi, total_, rho_, state_.u, state_.acceleration, liquid_, interfaces_};
     ConvectionWork<Dim> work(domain_.layout());
@@ -269,13 +267,13 @@ StepReport Flow<Dim>::step(double dt) {
   sum_fractions(grid, next_.phi, next_total_);
   mix_density(grid, par.species, next_.phi, next_rho_);
   mark_liquid(grid, next_total_, par.liquid_threshold, next_liquid_);
-  next_.gas.bubbles.clear();
-  next_.gas.held_open.clear();
   if (has_bubbles(gas_parameters(), state_.gas)) {
     report.gas = advance_gas(domain_, gas_parameters(), state_.gas, total_, next_total_, dt, gas_labels_, next_.gas);
     hold_open(grid, next_.gas, next_liquid_);
+  } else {
+    next_.gas.end(state_.gas.last_id);
   }
-  gas_pressure_on_nodes(domain_, gas_parameters(), next_.gas, next_liquid_, true, gas_pressure_, outer_pressure_);
+  gas_pressure_on_nodes(domain_, gas_parameters(), next_.gas, next_liquid_, true, outer_pressure_);
   set_open_pressures(domain_, outer_pressure_);
   find_elements(next_, next_total_, interfaces_, elements_);
   clock(Phase::redistribute_volume);
@@ -285,7 +283,7 @@ StepReport Flow<Dim>::step(double dt) {
 
   next_.pressure = state_.pressure;
   add_uniform(grid.layout(), grid.cells(), u_bar, dt, par.gravity, u_hat_);
-  add_scaled(grid.layout(), grid.cells(), u_hat_, dt, lagged_, u_hat_);
+  add_scaled(grid.layout(), grid.cells(), u_hat_, dt, lagged, u_hat_);
   CellVectors<Dim>& u_star = next_.u;
   u_star = u_hat_;
   if (mark_stress_elements(domain_, par.species, next_.phi, next_total_, diffusion_.elements)) {
@@ -297,7 +295,8 @@ StepReport Flow<Dim>::step(double dt) {
   diffusion_.release();
   clock(Phase::diffusion);
 
-  add_scaled(grid.layout(), grid.cells(), u_star, -dt, lagged_, u_star);
+  add_scaled(grid.layout(), grid.cells(), u_star, -dt, lagged, u_star);
+  lagged = {};
   project(dt, report);
   clock(Phase::projection);
   scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, u_bar, next_.acceleration);

@@ -151,12 +151,11 @@ class Flow {
   CellMask next_liquid_;
   Interfaces<Dim> interfaces_;
   PressureElements<Dim> elements_;
-  CellVectors<Dim> u_hat_, lagged_;
+  CellVectors<Dim> u_hat_;
   MacProjectionWork<Dim> mac_;
   RedistributionWork<Dim> redistribution_;
   DiffusionWork<Dim> diffusion_;
   GasLabels gas_labels_;
-  CellField gas_pressure_;    ///< of gas cells
   NodeField outer_pressure_;  ///< of the gas around each node
   /// Stresses of Bingham's law at the start of a step, for when it fails: they belong to the results.
   Field<Node, PointStresses<Dim>> multiplier_before_;

@@ -353,10 +353,11 @@ void hold_open(const Grid<Dim>& grid, const GasState& gas, CellMask& liquid) {
 
 template <int Dim>
 void gas_pressure_on_nodes(const Domain<Dim>& domain, const GasParameters& parameters, const GasState& gas,
-                           const CellMask& liquid, bool mean, CellField& cells, NodeField& nodes) {
+                           const CellMask& liquid, bool mean, NodeField& nodes) {
   nodes.fill(parameters.ambient_pressure);
   if (gas.bubbles.empty()) return;
   const Layout<Dim>& layout = domain.layout();
+  CellField cells(layout);
   for_each<Cell>(layout, domain.grid.cells(), [&](Cell c) {
     const Bubble* bubble = find(gas, gas.region[c]);
     cells[c] = bubble == nullptr ? parameters.ambient_pressure : mean ? bubble->mean_pressure : bubble->pressure;
@@ -386,7 +387,7 @@ void gas_pressure_on_nodes(const Domain<Dim>& domain, const GasParameters& param
                                              const CellField&, const CellField&, double, GasLabels&, GasState&);  \
   template void hold_open(const Grid<Dim>&, const GasState&, CellMask&);                                          \
   template void gas_pressure_on_nodes(const Domain<Dim>&, const GasParameters&, const GasState&, const CellMask&, \
-                                      bool, CellField&, NodeField&);
+                                      bool, NodeField&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

@@ -48,6 +48,13 @@ struct GasState {
   GasState() = default;
   template <int Dim>
   explicit GasState(const Layout<Dim>& layout) : region(layout) {}
+  /// No bubble is left, and no region needs to be told from others; new bubbles get ids after last.
+  void end(int last) {
+    region.fill(0);
+    bubbles.clear();
+    held_open.clear();
+    last_id = last;
+  }
 };
 
 enum class GasEventKind { born, split, merged, vented, closed, absorbed, lost };
@@ -118,6 +125,6 @@ void hold_open(const Grid<Dim>& grid, const GasState& gas, CellMask& liquid);
 /// projection), else the present one
 template <int Dim>
 void gas_pressure_on_nodes(const Domain<Dim>& domain, const GasParameters& parameters, const GasState& gas,
-                           const CellMask& liquid, bool mean, CellField& cells, NodeField& nodes);
+                           const CellMask& liquid, bool mean, NodeField& nodes);
 
 }  // namespace quicksand

@@ -141,7 +141,7 @@ void add_inflow(const Domain<Dim>& domain, const PressureElements<Dim>& elements
                                 const Cell inner = s == 0 ? high_cell(f) : high_cell(f) - grid.step(d);
                                 if (!elements.bears[inner]) return;
                                 const double u = domain.side_velocities.at(d, s, grid.centre(i))[d];
-                                const double inwards = (s == 0 ? u : -u) * grid.area(d, f);
+                                const double inwards = (s == 0 ? u : -u) * grid.area(d, i);
                                 for (int k = 0; k < C::count; ++k) {
                                   if (C::bit(k, d) == 1) continue;
                                   double part = inwards;

@@ -11,21 +11,23 @@ namespace {
 /// In cells filled less than this the velocity is the quotient of two round-off errors.
 constexpr double smallest_filling = 1e-12;
 
-/// Coupling of the two cells of a face in -div grad, finite volumes; none where both are the one cell of a ring.
+/// Coupling of a cell and the one below it along d in -div grad, finite volumes; none where both are the one cell of a
+/// ring. \param high  of the cell
 template <int Dim>
-double coupling(const Grid<Dim>& grid, int d, Face f) {
+double coupling(const Grid<Dim>& grid, int d, const Index<Dim>& high) {
   if (grid.layout().periodic(d) && grid.layout().cells()[d] == 1) return 0;
-  const Cell high = high_cell(f);
-  return grid.area(d, f) / (0.5 * (grid.width(d, high) + grid.width(d, high - grid.step(d))));
+  return grid.area(d, high) / (0.5 * (grid.width_1d(d, high[d]) + grid.width_1d(d, high[d] - 1)));
 }
 
 /// Diagonal of -div grad; `rule(d, s)` gives the ghost rule (its alpha) on side s of axis d.
 template <int Dim, class Rule>
-double diagonal_entry(const Grid<Dim>& grid, Rule&& rule, Cell c, const Index<Dim>& i) {
+double diagonal_entry(const Grid<Dim>& grid, Rule&& rule, const Index<Dim>& i) {
   double diagonal = 0;
   for (int d = 0; d < Dim; ++d) {
-    double below = coupling(grid, d, low_face(c));
-    double above = coupling(grid, d, low_face(c + grid.step(d)));
+    Index<Dim> next = i;
+    ++next[d];
+    double below = coupling(grid, d, i);
+    double above = coupling(grid, d, next);
     // ghost = alpha * mirror: the difference across the side is (1 - alpha) * mirror.
     if (i[d] == 0 && grid.at_boundary(d, 0)) below *= 1 - rule(d, 0).alpha;
     if (i[d] == grid.owned_cells()[d] - 1 && grid.at_boundary(d, 1)) above *= 1 - rule(d, 1).alpha;
@@ -45,7 +47,7 @@ void find_diagonal(const Domain<Dim>& domain, int e, CellField& diagonal) {
   };
   const bool turns = e == 0 && grid.axisymmetric();
   for_each_indexed<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
-    diagonal[c] = diagonal_entry(grid, rule, c, i);
+    diagonal[c] = diagonal_entry(grid, rule, i);
     if (!turns) return;
     const double r = grid.centre_position(0, i[0]);
     diagonal[c] += grid.volume(c) / (r * r);
@@ -123,10 +125,10 @@ RedistributionWork<Dim>::RedistributionWork(const Domain<Dim>& domain, const std
   const Grid<Dim>& grid = domain.grid;
   const auto rule = [&](int d, int s) { return potential_rule(domain.sides.at(d, s)); };
   for_each_indexed<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
-    laplacian.diagonal[c] = diagonal_entry(grid, rule, c, i);
+    laplacian.diagonal[c] = diagonal_entry(grid, rule, i);
     for (int d = 0; d < Dim; ++d) {
       const bool first = i[d] == 0 && !domain.layout().periodic(d);
-      laplacian.lower[static_cast<std::size_t>(d)][c] = first ? 0.0 : -coupling(grid, d, low_face(c));
+      laplacian.lower[static_cast<std::size_t>(d)][c] = first ? 0.0 : -coupling(grid, d, i);
     }
   });
   laplacian.wrap_couplings();

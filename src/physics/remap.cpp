@@ -128,6 +128,8 @@ Flow<Dim> remap(const Flow<Dim>& flow, Domain<Dim> domain, RemapReport& report) 
     mapped.bubbles = old.gas.bubbles;
     mapped.last_id = old.gas.last_id;
     report.gas = move_gas(flow, target, mapped, total, state.gas);
+  } else {
+    state.gas.end(old.gas.last_id);
   }
   state.time = old.time;
   state.step = old.step;

@@ -33,7 +33,7 @@ StressFields evaluate_stress(const Flow<Dim>& flow) {
     strain_rates(e, corner, rates);
     for (int q = 0; q < point_count<Dim>; ++q) {
       if (!(e.weight(q) > 0)) continue;
-      const Rheology& rheology = elements.rheology[n];
+      const Rheology rheology = elements.material(n);
       const StrainRate<Dim>& s = rates[q];
       double f = effective_viscosity(rheology, s.scalar);
       double magnitude = f * s.scalar;

@@ -44,10 +44,14 @@ double concentration_factor(double kappa, double c) {
 }
 
 template <int Dim>
-void StressElements<Dim>::acquire(const Layout<Dim>& layout) {
+void StressElements<Dim>::acquire(const Layout<Dim>& layout, bool newtonian) {
   if (part.size() > 0) return;
   active = NodeMask(layout);
-  rheology = Field<Node, Rheology>(layout);
+  if (newtonian) {
+    viscosity = NodeField(layout);
+  } else {
+    rheology = Field<Node, Rheology>(layout);
+  }
   share = part = NodeField(layout);
 }
 
@@ -55,7 +59,9 @@ template <int Dim>
 void StressElements<Dim>::release() {
   active = {};
   rheology = {};
-  share = part = {};
+  viscosity = {};
+  share = {};
+  part = {};
 }
 
 template <int Dim>
@@ -64,7 +70,9 @@ bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>&
   std::vector<Rheology> pure;
   for (const Species& s : species) pure.push_back(rheology(s.law));
   if (std::none_of(pure.begin(), pure.end(), [](const Rheology& r) { return r.carries_stress(); })) return false;
-  elements.acquire(domain.layout());
+  elements.acquire(domain.layout(), std::none_of(pure.begin(), pure.end(), [](const Rheology& r) {
+                     return r.is_nonlinear() || r.rigid_yield_stress > 0;
+                   }));
   elements.active.fill(0);
 
   const Grid<Dim>& grid = domain.grid;
@@ -80,8 +88,13 @@ bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>&
     }
     liquid[n] = whole / corner_count<Dim> * e.volume();
     if (empty) return;
-    elements.rheology[n] = mix(e, species, pure, phi, whole);
-    elements.active[n] = elements.rheology[n].carries_stress() ? 1 : 0;
+    const Rheology mixed = mix(e, species, pure, phi, whole);
+    if (elements.newtonian()) {
+      elements.viscosity[n] = mixed.viscosity;
+    } else {
+      elements.rheology[n] = mixed;
+    }
+    elements.active[n] = mixed.carries_stress() ? 1 : 0;
   });
   // An inactive element leaves each active neighbour an equal part of its liquid.
   NodeField& part = elements.part;

@@ -18,14 +18,19 @@ template <int Dim>
 struct StressElements {
   DualMesh<Dim> mesh;
   NodeMask active;                 ///< carries stress
-  Field<Node, Rheology> rheology;  ///< of active elements
+  Field<Node, Rheology> rheology;  ///< of active elements; of size 0 where no law is more than Newtonian
+  NodeField viscosity;             ///< of active elements, where no law is more than Newtonian, else of size 0
   NodeField share;                 ///< liquid an active element stands for, as a part of its volume
   NodeField part;                  ///< liquid that an inactive element leaves to each active neighbour
 
   explicit StressElements(const Domain<Dim>& domain) : mesh(domain) {}
   /// Makes the fields, where they are not there; gives them back.
-  void acquire(const Layout<Dim>& layout);
+  /// \param newtonian  whether no law is more than that
+  void acquire(const Layout<Dim>& layout, bool newtonian);
   void release();
+  bool newtonian() const { return viscosity.size() > 0; }
+  /// Of an active element.
+  Rheology material(Node n) const { return newtonian() ? Rheology{.viscosity = viscosity[n]} : rheology[n]; }
 };
 
 /// The factor of (43b): (exp(kappa c) - 1) / (exp(kappa) - 1), c for kappa = 0.

@@ -175,7 +175,7 @@ std::optional<double> solve_linear_stress(const ViscousProblem<Dim>& p, double s
   DiffusionWork<Dim>& work = p.work;
   const Layout<Dim>& layout = p.domain.layout();
   const Box<Dim>& box = work.matrix.box();
-  CellVectors<Dim>& diagonal = work.trial;
+  CellVectors<Dim>& diagonal = work.trial_gradient;
   linear_stress_diagonal(p.domain, p.dt, work, diagonal);
   double inertia = 0;
   double viscosity = 0;

@@ -70,12 +70,12 @@ template <int Dim, class At>
 SolveReport solve_definite(const StencilMatrix<Dim, At>& matrix, const Field<At>& b, Field<At>& x,
                            const SolveOptions& options) {
   const Method first = options.method == Method::automatic ? choose_method(matrix) : options.method;
-  Field<At> guess = x;
   SolveReport report = attempt(matrix, first, b, x, options);
   for (const Method method : {Method::smg, Method::jacobi}) {
     if (report.converged || method == first) continue;
-    // The failed attempt may have gone astray: begin anew from the caller's guess, and keep the better result.
-    Field<At> candidate = guess;
+    // The failed attempt may have gone astray, and so may the guess: begin anew, and keep the better result.
+    Field<At> candidate = x;
+    for_each<At>(matrix.layout, matrix.box, [&](At p) { candidate[p] = 0; });
     SolveReport next = attempt(matrix, method, b, candidate, options);
     next.iterations += report.iterations;
     if (next.converged || next.residual < report.residual || !std::isfinite(report.residual)) {

@@ -93,7 +93,8 @@ int march(const CaseConfig& config, Voyage<Dim>& voyage, bool falters, After&& a
   return retries;
 }
 
-/// Interrupts a flow after its start and after random steps, and lets it go on on one or two threads.
+/// Interrupts a flow after its start, before its last step and after random steps, and lets it go on on one or two
+/// threads.
 template <int Dim>
 void expect_same_bits(const CaseConfig& config, bool falters, int interruptions) {
   Voyage<Dim> whole(config);
@@ -107,7 +108,9 @@ void expect_same_bits(const CaseConfig& config, bool falters, int interruptions)
   }
   std::mt19937 random(1);
   for (int k = 0; k < interruptions; ++k) {
-    const std::size_t at = k == 0 ? 0 : std::uniform_int_distribution<std::size_t>(1, last - 1)(random);
+    const std::size_t at = k == 0   ? 0
+                           : k == 1 ? last - 1
+                                    : std::uniform_int_distribution<std::size_t>(1, last - 1)(random);
     SCOPED_TRACE("interrupted after step " + std::to_string(at) + " of " + std::to_string(last));
     const testing::Threads threads(k % 2 == 0 ? 1 : 2);
     Voyage<Dim> resumed(config, memories[at]);
@@ -134,7 +137,7 @@ class Resume : public ::testing::TestWithParam<ResumedCase> {
   }
 };
 
-TEST_P(Resume, GoesOnToTheSameBits) { expect(GetParam().end, 2); }
+TEST_P(Resume, GoesOnToTheSameBits) { expect(GetParam().end, 3); }
 
 using ResumeSlow = Resume;
 TEST_P(ResumeSlow, GoesOnToTheSameBitsFromAnywhere) { expect(GetParam().full, 10); }
@@ -144,6 +147,9 @@ const std::vector<std::string> through_grids = {
     "bubbles.0.pressure=400", "regrid={bubble_cells: 10}",
     "stages=[{until: 0.33, grid: {x: {from: 0, to: 6.25, cells: 50}, z: {from: 0, to: 6.25, cells: 50}}}]"};
 
+/// A bubble in a thin shell, which it soon breaks.
+const std::vector<std::string> vents = {"initial.0.shape.sphere.radius=2", "bubbles.0.pressure=40"};
+
 const ResumedCase cases[] = {
     {"slug/case_e", 0.2, 1.0, {}},
     {"slug/case_e_bingham", 0.08, 0.6, {}},
@@ -152,6 +158,7 @@ const ResumedCase cases[] = {
     {"channel/poiseuille", 0.3, 2.0, {}},
     {"slug/case_d", 0.2, 1.0, {"trapped_gas.adiabatic=true"}},
     {"bubbles/free_ball", 0.36, 1.2, through_grids, "_through_grids"},
+    {"bubbles/free_disc", 0.75, 0.9, vents, "_that_vents"},
     {"slug/case_e_bingham", 0.06, 0.3, {}, "_falters", true},
 };
 

@@ -119,8 +119,8 @@ TEST(CoreBoundary, AperturesAreFaceAreasWhereLiquidCanPass) {
   for (int j = 0; j < 4; ++j) {
     EXPECT_EQ(domain.aperture[0][low_face(grid.cell({4, j}))], 0);
     EXPECT_EQ(domain.aperture[1][low_face(grid.cell({j, 0}))], 0);
-    EXPECT_EQ(domain.aperture[1][low_face(grid.cell({j, 4}))], grid.area(1, low_face(grid.cell({j, 4}))));
-    EXPECT_EQ(domain.aperture[0][low_face(grid.cell({2, j}))], grid.area(0, low_face(grid.cell({2, j}))));
+    EXPECT_EQ(domain.aperture[1][low_face(grid.cell({j, 4}))], grid.area(1, {j, 4}));
+    EXPECT_EQ(domain.aperture[0][low_face(grid.cell({2, j}))], grid.area(0, {2, j}));
   }
 }
 

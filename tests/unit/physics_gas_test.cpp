@@ -276,9 +276,8 @@ TEST(GasRegions, NodePressureIsTheMeanOfTheCellsOutsideD) {
   s.total[s.domain.grid.cell({{2, 1}})] = 1;
   CellMask liquid(s.domain.layout());
   mark_liquid(s.domain.grid, s.total, eps, liquid);
-  CellField cells(s.domain.layout());
   NodeField nodes(s.domain.layout());
-  gas_pressure_on_nodes(s.domain, s.parameters, s.gas, liquid, false, cells, nodes);
+  gas_pressure_on_nodes(s.domain, s.parameters, s.gas, liquid, false, nodes);
   const auto node = [&](int i, int k) { return nodes[low_node(s.domain.grid.cell({{i, k}}))]; };
   EXPECT_EQ(node(1, 1), s.bubble(a).pressure);
   EXPECT_EQ(node(3, 2), 5);

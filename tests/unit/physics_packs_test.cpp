@@ -53,6 +53,7 @@ struct LongRow {
         mixture(domain, {testing::liquid_species(1, Newtonian{0.7}), testing::liquid_species(2, Bingham{0.05, 0.3}),
                          testing::liquid_species(1.5, HerschelBulkley{0.2, 1.6, 0.3, 20})}),
         work(domain, mixture.species) {
+    work.acquire(domain.layout());
     const Grid<Dim>& g = domain.grid;
     for_each_indexed<Cell>(domain.layout(), g.cells(), [&](Cell c, const Index<Dim>& i) {
       const bool hole = testing::rough(i, 5) > 0.85;

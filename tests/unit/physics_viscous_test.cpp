@@ -36,6 +36,7 @@ struct Problem {
         mixture(make(domain, testing::liquid_species(1.3, law))),
         work(domain, mixture.species),
         u_hat(testing::rough_vectors(domain.grid, 40)) {
+    work.acquire(domain.layout());
     mark_stress_elements(domain, mixture.species, mixture.phi, mixture.total, work.elements);
     for (int e = 0; e < Dim; ++e) {
       for_each<Cell>(domain.layout(), domain.grid.cells(),

@@ -47,7 +47,7 @@ struct Problem {
     constexpr int d = Dim - 1;
     for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
       if (i[d] == grid.owned_cells()[d] - 1) {
-        matrix.diagonal[c] += 2 * grid.area(d, low_face(c + grid.step(d))) / grid.width(d, c);
+        matrix.diagonal[c] += 2 * grid.area(d, i) / grid.width(d, c);
       }
     });
   }

@@ -36,7 +36,7 @@ StencilMatrix<Dim, Cell> cell_laplacian(const Grid<Dim>& grid, Inside&& inside, 
       Index<Dim> below = i;
       below[d] = grid.layout().image(d, i[d] - 1);
       const Cell low = grid.cell(below);
-      const double area = grid.area(d, low_face(high));
+      const double area = grid.area(d, i);
       const double weight = area * 2 / (grid.width(d, low) + grid.width(d, high));
       if (inside(i) && inside(below)) {
         matrix.lower[static_cast<std::size_t>(d)][high] = -weight;
