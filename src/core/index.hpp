@@ -44,6 +44,10 @@ struct Index {
     for (int d = 0; d < Dim; ++d) a[d] += b[d];
     return a;
   }
+  friend constexpr Index operator-(Index a, const Index& b) {
+    for (int d = 0; d < Dim; ++d) a[d] -= b[d];
+    return a;
+  }
   friend constexpr bool operator==(const Index&, const Index&) = default;
 };
 

@@ -58,9 +58,10 @@ struct Rows {
     return layout.flat(i);
   }
   /// Calls body(flat number of the first point) for every row, in threads.
+  /// \param cost  of a point, in that of a point of a simple loop
   template <class Body>
-  void for_each(Body&& body) const {
-    detail::for_each_number(count, count * length, [&](std::ptrdiff_t r) { body(start(r)); });
+  void for_each(Body&& body, int cost = 1) const {
+    detail::for_each_number(count, count * length * cost, [&](std::ptrdiff_t r) { body(start(r)); });
   }
 };
 
@@ -145,12 +146,13 @@ void for_each_coloured(const Layout<Dim>& layout, const Box<Dim>& box, Body&& bo
 
 /// Calls body(Index) for the first point of every row (run along x) of the box, in passes such that a pass visits every
 /// second row along each other axis: a body may write to its own row and to rows next to it on one side.
+/// \param cost  of a point, in that of a point of a simple loop
 template <int Dim, class Body>
-void for_each_coloured_row(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
+void for_each_coloured_row(const Layout<Dim>& layout, const Box<Dim>& box, int cost, Body&& body) {
   constexpr int passes = Dim == 2 ? 3 : 9;
   if (box.empty()) return;
   for (int pass = 0; pass < passes; ++pass) {
-    detail::for_each_row_of_colour(layout, box, pass, box.extent(0) * (1 << Dim), body);
+    detail::for_each_row_of_colour(layout, box, pass, box.extent(0) * static_cast<std::ptrdiff_t>(cost), body);
   }
 }
 

@@ -49,7 +49,8 @@ void for_each_active_in_row(const Layout<Dim>& layout, const StressElements<Dim>
 template <int Dim, class Body>
 void for_each_active_element(const Layout<Dim>& layout, const Box<Dim>& box, const StressElements<Dim>& elements,
                              Body&& body) {
-  for_each_coloured_row(layout, box,
+  constexpr int cost = Dim == 2 ? 32 : 128;
+  for_each_coloured_row(layout, box, cost,
                         [&](const Index<Dim>& row) { for_each_active_in_row(layout, elements, row, box.hi[0], body); });
 }
 

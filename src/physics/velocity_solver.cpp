@@ -36,10 +36,15 @@ struct VelocitySolver<Dim>::Factors {
         for (int b = 0; b <= a; ++b) factors.add(Dim * n + a, Dim * n + b, matrix.centre(a, b)[c]);
       }
       for (std::size_t e = 0; e < matrix.offsets().size(); ++e) {
-        const int neighbour = order.number(i + matrix.offsets()[e]);
-        if (neighbour < 0) continue;
+        const Index<Dim>& offset = matrix.offsets()[e];
+        const int below = order.number(i + offset);
+        const int above = order.number(i - offset);
+        const Cell next = c + matrix.component(0).steps[e];
         for (int a = 0; a < Dim; ++a) {
-          for (int b = 0; b < Dim; ++b) factors.add(Dim * n + a, Dim * neighbour + b, matrix.lower(a, b, e)[c]);
+          for (int b = 0; b < Dim; ++b) {
+            if (below >= 0 && below < n) factors.add(Dim * n + a, Dim * below + b, matrix.lower(a, b, e)[c]);
+            if (above >= 0 && above < n) factors.add(Dim * n + a, Dim * above + b, matrix.lower(b, a, e)[next]);
+          }
         }
       }
     });

@@ -24,15 +24,17 @@ class BandOrder {
   /// Number of a point; of one beyond the box the number of the point it is a copy of, -1 if there is none.
   int number(Index<Dim> i) const;
 
-  /// Calls body(At, number) for all points of the box.
+  /// Calls body(At, Index, number) for all points of the box, in threads: a body writes to what is its point's own.
   template <class At, class Body>
   void for_each(Body&& body) const {
+    constexpr int cost = 16;
     const Rows<Dim> rows(layout_, box_);
-    for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
-      const std::ptrdiff_t start = rows.start(r);
-      Index<Dim> index = layout_.multi(start);
-      for (int i = 0; i < rows.length; ++i, ++index[0]) body(At{start + i}, index, number(index));
-    }
+    rows.for_each(
+        [&](std::ptrdiff_t start) {
+          Index<Dim> i = layout_.multi(start);
+          for (int k = 0; k < rows.length; ++k, ++i[0]) body(At{start + k}, i, number(i));
+        },
+        cost);
   }
 
  private:
@@ -44,25 +46,57 @@ class BandOrder {
 };
 
 /// Factors L D L^T of a symmetric matrix. The work is size * bandwidth^2, that of a solution size * bandwidth.
+///
+/// Long bands are eliminated from both ends at once, on two threads where there are as many; what is between the
+/// halves, as many unknowns as the band is wide, comes last. The order is the same for any number of threads.
 class BandedCholesky {
  public:
   /// A matrix of zeros.
   BandedCholesky(int size, int bandwidth);
   /// Adds to the entry at (row, column) and its mirror image, for |row - column| <= bandwidth.
-  void add(int row, int column, double value) { entry(std::min(row, column), std::abs(row - column)) += value; }
+  /// Different rows may be added to at the same time, a row being that of the larger number.
+  void add(int row, int column, double value) {
+    const int low = std::min(row, column);
+    const int high = std::max(row, column);
+    const bool first = high < ends_[0] + middle_;
+    (first ? band_[0].entry(low, high - low) : band_[1].entry(size_ - 1 - high, high - low)) += value;
+  }
   /// Replaces the matrix by its factors. Returns false where it is not positive definite to round-off.
   bool factorize();
   /// x <- matrix^-1 x, after factorize().
   void solve(std::vector<double>& x) const;
 
  private:
-  double& entry(int column, int below) {
-    return values_[static_cast<std::size_t>(column) * stride_ + static_cast<std::size_t>(below)];
-  }
+  /// The lower triangle of a banded matrix, column by column from the diagonal down.
+  class Band {
+   public:
+    Band() = default;
+    /// Of values that are not set yet.
+    Band(int size, int bandwidth);
+    void clear() { std::fill(values_.begin(), values_.end(), 0.0); }
+    double& entry(int column, int below) {
+      return values_[static_cast<std::size_t>(column) * stride_ + static_cast<std::size_t>(below)];
+    }
+    /// Eliminates the columns [first, last). Returns false where a pivot is not positive.
+    bool eliminate(int first, int last);
+    /// Forward and backward substitution with the columns [first, last); x has bandwidth more entries than the matrix.
+    void substitute(int first, int last, double* x) const;
+    void substitute_back(int first, int last, double* x) const;
+
+   private:
+    int bandwidth_ = 0;
+    std::size_t stride_ = 0;
+    std::vector<double, detail::UntouchedAllocator<double>> values_;
+  };
+
+  /// Calls body(0) and body(1) for the two halves, in threads where the work is worth it.
+  template <class Body>
+  void for_halves(double work, Body&& body) const;
 
   int size_, bandwidth_;
-  std::size_t stride_;
-  std::vector<double> values_;  // column by column, from the diagonal down
+  int middle_;    ///< unknowns between the halves, the last of either; all of them where there is one half
+  int ends_[2];   ///< unknowns of the halves
+  Band band_[2];  ///< of a half and the middle, from the first unknown up and from the last one down
 };
 
 }  // namespace quicksand

@@ -102,10 +102,14 @@ class Factors {
       : order_(matrix.layout, matrix.box), factors_(order_.size(), order_.bandwidth()) {
     order_.template for_each<At>([&](At p, const Index<Dim>& i, int n) {
       factors_.add(n, n, matrix.diagonal[p]);
+      const auto couple = [&](const Index<Dim>& j, double value) {
+        if (value == 0) return;
+        const int neighbour = order_.number(j);
+        if (neighbour >= 0 && neighbour < n) factors_.add(n, neighbour, value);
+      };
       for (std::size_t e = 0; e < matrix.lower.size(); ++e) {
-        if (matrix.lower[e][p] == 0) continue;
-        const int neighbour = order_.number(i + matrix.offsets[e]);
-        if (neighbour >= 0) factors_.add(n, neighbour, matrix.lower[e][p]);
+        couple(i + matrix.offsets[e], matrix.lower[e][p]);
+        couple(i - matrix.offsets[e], matrix.lower[e][p + matrix.steps[e]]);
       }
     });
     if (!factors_.factorize()) throw NumericalError("the Cholesky factorisation failed");

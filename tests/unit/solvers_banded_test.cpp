@@ -18,7 +18,8 @@ double entry(int row, int column, int bandwidth) {
 }
 
 TEST(BandedCholesky, SolvesToRoundOff) {
-  for (const auto& [size, bandwidth] : {std::pair{1, 0}, std::pair{7, 3}, std::pair{40, 11}, std::pair{5, 9}}) {
+  for (const auto& [size, bandwidth] : {std::pair{1, 0}, std::pair{7, 3}, std::pair{40, 11}, std::pair{5, 9},
+                                        std::pair{12, 0}, std::pair{50, 1}, std::pair{97, 6}, std::pair{400, 41}}) {
     BandedCholesky factors(size, bandwidth);
     for (int i = 0; i < size; ++i) {
       for (int j = 0; j <= i; ++j) {
