@@ -43,6 +43,58 @@ TEST(CoreLoop, VisitsEveryPointOfARingOnce) {
   for (const int n : {1, 2, 3, 130, 131}) expect_every_point_once(Layout<2>({n, 111}, {{true, true}}));
 }
 
+/// Every row adds to itself and to the rows next to it on the high side, as packs of elements do.
+template <int Dim>
+CellField add_to_rows_above(const Layout<Dim>& layout, int threads) {
+  const Threads of_loop(threads);
+  CellField sums(layout);
+  for_each_coloured_row(layout, owned(layout), 1 << Dim, [&](const Index<Dim>& row) {
+    for (int k = 0; k < 1 << (Dim - 1); ++k) {
+      Index<Dim> there = row;
+      for (int d = 1; d < Dim; ++d) there[d] = layout.image(d, row[d] + ((k >> (d - 1)) & 1));
+      const double part = testing::rough(row, k);
+      for (int i = 0; i < layout.cells()[0]; ++i) sums[Cell{layout.flat(there) + i}] += part;
+    }
+  });
+  return sums;
+}
+
+TEST(CoreLoop, ColouredRowsAddInTheSameOrderOnAnyNumberOfThreads) {
+  const auto expect = [](const auto& layout) {
+    CellField serial = add_to_rows_above(layout, 1);
+    CellField threaded = add_to_rows_above(layout, 3);
+    EXPECT_EQ(serial.values(), threaded.values());
+    for (std::ptrdiff_t n = 0; n < layout.size(); ++n) {
+      if (!owned(layout).contains(layout.multi(n))) continue;
+      ASSERT_NE(serial[Cell{n}], 0) << n;
+    }
+  };
+  expect(plane);
+  expect(space);
+  expect(Layout<3>({33, 21, 19}, {{true, true, true}}));
+}
+
+TEST(CoreField, CopiesAndFillsAreWholeOnAnyNumberOfThreads) {
+  const Layout<2> large(Index<2>{400, 300});  // shared among threads
+  for (const int count : {1, 3}) {
+    const Threads threads(count);
+    CellField field(large, 2);
+    for (std::ptrdiff_t n = 0; n < large.size(); ++n) field[Cell{n}] += static_cast<double>(n);
+    CellField copy(field);
+    EXPECT_EQ(copy.values(), field.values());
+    CellField assigned(plane, 1);
+    assigned = field;
+    EXPECT_EQ(assigned.values(), field.values());
+    const CellField& itself = assigned;
+    assigned = itself;
+    EXPECT_EQ(assigned.values(), field.values());
+    assigned.fill(7);
+    EXPECT_EQ(assigned.values(), CellField(large, 7).values());
+    assigned = CellField();
+    EXPECT_EQ(assigned.size(), 0);
+  }
+}
+
 TEST(CoreLoop, EmptyBoxesAreNotVisited) {
   int visits = 0;
   const Box<2> flat{{0, 3}, {4, 3}};

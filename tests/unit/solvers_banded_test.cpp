@@ -1,12 +1,14 @@
 // Banded Cholesky factors against the matrix they were made of, and the numbering that keeps bands narrow.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
 
 #include "solvers/banded_cholesky.hpp"
 #include "support/grids.hpp"
+#include "support/threads.hpp"
 
 namespace quicksand {
 namespace {
@@ -46,6 +48,34 @@ TEST(BandedCholesky, RefusesWhatIsNotPositiveDefinite) {
   factors.add(1, 1, 1);
   factors.add(1, 0, 2);
   EXPECT_FALSE(factors.factorize());
+}
+
+/// In the lower half, between the halves, in the upper half.
+TEST(BandedCholesky, RefusesAWrongPivotAnywhere) {
+  constexpr int size = 101;
+  for (const int wrong : {3, 50, 51, 97}) {
+    BandedCholesky factors(size, 3);
+    for (int i = 0; i < size; ++i) factors.add(i, i, i == wrong ? -1 : 1);
+    EXPECT_FALSE(factors.factorize()) << wrong;
+  }
+}
+
+TEST(BandedCholesky, SolutionsDoNotDependOnTheNumberOfThreads) {
+  constexpr int size = 6000;
+  constexpr int bandwidth = 35;
+  std::vector<double> solutions[2];
+  for (const int threads : {1, 3}) {
+    const testing::Threads of_factors(threads);
+    BandedCholesky factors(size, bandwidth);
+    for (int i = 0; i < size; ++i) {
+      for (int j = std::max(i - bandwidth, 0); j <= i; ++j) factors.add(i, j, entry(i, j, bandwidth));
+    }
+    ASSERT_TRUE(factors.factorize());
+    std::vector<double>& x = solutions[threads == 1 ? 0 : 1];
+    for (int i = 0; i < size; ++i) x.push_back(std::sin(i + 1.0));
+    factors.solve(x);
+  }
+  EXPECT_EQ(solutions[0], solutions[1]);
 }
 
 TEST(BandOrder, NumbersEveryPointOnceAndKeepsNeighboursNear) {
