@@ -6,12 +6,15 @@
 #include <HYPRE_struct_ls.h>
 #include <HYPRE_utilities.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "core/errors.hpp"
+#include "core/threads.hpp"
 #include "solvers/multigrid.hpp"
 
 namespace quicksand {
@@ -107,6 +110,20 @@ bool takes_period(MultigridKind kind, int n) {
 
 using HypreIndex = std::array<HYPRE_Int, 3>;
 
+/// Keeps loops to one thread for its life. Setting up, PFMG writes the couplings of coarse star matrices from either
+/// end, with values alike to round-off: on several threads that of the later one would stay, in cycles this does not
+/// occur.
+class OneThread {
+ public:
+  OneThread() { set_threads(1); }
+  ~OneThread() { set_threads(before_); }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+ private:
+  int before_ = thread_count();
+};
+
 }  // namespace
 
 bool pfmg_suits_27_points() { return HYPRE_RELEASE_NUMBER >= 30000; }
@@ -130,7 +147,7 @@ struct Multigrid<Dim, At>::Hierarchy {
       create_grid();
       create_matrix(matrix);
       create_vectors();
-      create_solver(matrix.stencil);
+      create_solver(matrix);
     } catch (...) {
       destroy();
       throw;
@@ -163,8 +180,7 @@ struct Multigrid<Dim, At>::Hierarchy {
   }
 
   void create_matrix(const StencilMatrix<Dim, At>& matrix) {
-    // Entry 0 is the diagonal, then the lower couplings within the axes_ seen; symmetric storage implies the upper
-    // ones.
+    // Entry 0 is the diagonal, then the couplings within the axes_ seen; symmetric storage implies the upper ones.
     std::vector<HypreIndex> shape(1, HypreIndex{});
     std::vector<const Field<At>*> coefficient(1, &matrix.diagonal);
     for (std::size_t e = 0; e < matrix.offsets.size(); ++e) {
@@ -199,15 +215,17 @@ struct Multigrid<Dim, At>::Hierarchy {
   /// A coupling that leads out of the box_ must be zero, or the coarse matrices are wrong next to it; where hypre knows
   /// the axis as periodic it leads to the other end.
   void drop_couplings_out_of_the_box(const HypreIndex& offset) {
-    std::size_t n = 0;
-    const Index<Dim> extent = extents();
-    for_each_packed([&](const Index<Dim>& i) {
-      for (std::size_t d = 0; d < axes_.count; ++d) {
-        const int to = i[axes_.axis[d]] + static_cast<int>(offset[d]);
-        if (period_[d] == 0 && (to < 0 || to >= extent[axes_.axis[d]])) values_[n] = 0;
+    std::ptrdiff_t inner = 1;  // points of a row, then of a plane, next to each other in values_
+    for (std::size_t d = 0; d < axes_.count; ++d) {
+      const int n = box_.extent(axes_.axis[d]);
+      if (offset[d] != 0 && period_[d] == 0) {
+        const std::ptrdiff_t last = offset[d] < 0 ? 0 : n - 1;
+        for (auto layer = values_.begin() + last * inner; layer < values_.end(); layer += n * inner) {
+          std::fill_n(layer, inner, 0.0);
+        }
       }
-      ++n;
-    });
+      inner *= n;
+    }
   }
 
   void create_vectors() {
@@ -220,11 +238,43 @@ struct Multigrid<Dim, At>::Hierarchy {
     check_and_clear("vectors");
   }
 
-  void create_solver(Stencil stencil_kind) {
+  /// Tells PFMG the cells' widths as the matrix shows them, by which it chooses the axes to coarsen, and the weight of
+  /// Jacobi's method where they differ much. What it makes out for itself is the same to round-off, but depends on the
+  /// number of threads: equal widths would be told apart by that.
+  void set_widths(const StencilMatrix<Dim, At>& matrix) {
+    constexpr double uncoupled = 1e100;
+    constexpr double much = 0.1;  // square of the standard deviation over the mean
+    std::array<HYPRE_Real, 3> width{1, 1, 1};
+    double strongest = 0;
+    bool differ = false;
+    for (std::size_t a = 0; a < axes_.count; ++a) {
+      const auto coupling = [&](At p) {
+        double total = 0;
+        for (std::size_t e = 0; e < matrix.offsets.size(); ++e) {
+          if (matrix.offsets[e][axes_.axis[a]] != 0) total -= matrix.lower[e][p];
+        }
+        return total;
+      };
+      const double points = static_cast<double>(box_.size());
+      const double mean = sum<At>(layout_, box_, coupling) / points;
+      const double square = sum<At>(layout_, box_, [&](At p) { return coupling(p) * coupling(p); }) / points;
+      differ = differ || square - mean * mean > much * mean * mean;
+      width[a] = mean;
+      strongest = std::max(strongest, mean);
+    }
+    for (std::size_t a = 0; a < axes_.count; ++a) {
+      // Rounded, so that axes that are alike are taken in turn.
+      width[a] = width[a] > 0 ? static_cast<float>(std::sqrt(strongest / width[a])) : uncoupled;
+    }
+    HYPRE_StructPFMGSetDxyz(solver_, width.data());
+    if (differ) HYPRE_StructPFMGSetJacobiWeight(solver_, 2.0 / 3);
+  }
+
+  void create_solver(const StencilMatrix<Dim, At>& matrix) {
     if (kind_ == MultigridKind::pfmg) {
       // Red-black relaxation keeps a star stencil_ on all levels; on box_ stencils hypre 2.26 writes beyond an array
       // with it, and round the odd number of points of a coarse level colours do not alternate.
-      const HYPRE_Int relaxation = stencil_kind == Stencil::star && period_ == HypreIndex{} ? 2 : 1;
+      const HYPRE_Int relaxation = matrix.stencil == Stencil::star && period_ == HypreIndex{} ? 2 : 1;
       HYPRE_StructPFMGCreate(self_communicator, &solver_);
       HYPRE_StructPFMGSetMaxIter(solver_, 1);
       HYPRE_StructPFMGSetTol(solver_, 0.0);
@@ -234,6 +284,8 @@ struct Multigrid<Dim, At>::Hierarchy {
       HYPRE_StructPFMGSetNumPostRelax(solver_, 1);
       HYPRE_StructPFMGSetLogging(solver_, 0);
       HYPRE_StructPFMGSetPrintLevel(solver_, 0);
+      set_widths(matrix);
+      const OneThread in_order;
       HYPRE_StructPFMGSetup(solver_, operator_, right_hand_side_, solution_);
       check_and_clear("set-up of PFMG");
     } else {
@@ -261,23 +313,6 @@ struct Multigrid<Dim, At>::Hierarchy {
     if (stencil_ != nullptr) HYPRE_StructStencilDestroy(stencil_);
     if (grid_ != nullptr) HYPRE_StructGridDestroy(grid_);
     HYPRE_ClearAllErrors();
-  }
-
-  Index<Dim> extents() const {
-    Index<Dim> n;
-    for (int d = 0; d < Dim; ++d) n[d] = box_.extent(d);
-    return n;
-  }
-
-  /// Calls body with the index in the box_, in the order of `values_`.
-  template <class Body>
-  void for_each_packed(Body&& body) const {
-    const Index<Dim> extent = extents();
-    Index<Dim> i;
-    for (std::size_t n = 0; n < values_.size(); ++n) {
-      body(i);
-      for (int d = 0; d < Dim && ++i[d] == extent[d]; ++d) i[d] = 0;
-    }
   }
 
   /// Copies rows between a field and the gapless array hypre takes: axes_ of one cell vanish by themselves.
