@@ -70,7 +70,7 @@ struct DiffusionWork {
   CellVectors<Dim> gradient, trial_gradient, update;
   CellVectors<Dim> trial;  ///< of nonlinear iterations, which make it
 
-  /// Makes the arrays that live within one step only, and gives them back.
+  /// Makes masses, gradients, update, potential and gap, which live within one step only; gives all such arrays back.
   void acquire(const Layout<Dim>& layout);
   void release();
 

@@ -40,7 +40,7 @@ struct Bubble {
 
 /// The state of all gas: what a step starts from.
 struct GasState {
-  CellLabels region;            ///< id of the region of each gas cell, 0 in liquid; see label_gas()
+  CellLabels region;            ///< id of the region of each gas cell, 0 in liquid and without bubbles; see label_gas()
   std::vector<Bubble> bubbles;  ///< by increasing id
   std::vector<Cell> held_open;  ///< the emptiest cell of every bubble: it counts as empty, however full it is
   int last_id = open_air;

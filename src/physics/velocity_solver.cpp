@@ -42,7 +42,8 @@ struct VelocitySolver<Dim>::Factors {
         const Cell next = c + matrix.component(0).steps[e];
         for (int a = 0; a < Dim; ++a) {
           for (int b = 0; b < Dim; ++b) {
-            if (below >= 0 && below < n) factors.add(Dim * n + a, Dim * below + b, matrix.lower(a, b, e)[c]);
+            // On an axis of one cell, that is periodic, a cell is its own neighbour.
+            if (below >= 0 && below <= n) factors.add(Dim * n + a, Dim * below + b, matrix.lower(a, b, e)[c]);
             if (above >= 0 && above < n) factors.add(Dim * n + a, Dim * above + b, matrix.lower(b, a, e)[next]);
           }
         }

@@ -126,7 +126,8 @@ void BandedCholesky::for_halves(double work, Body&& body) const {
   }
 }
 
-BandedCholesky::BandedCholesky(int size, int bandwidth) : size_(size), bandwidth_(std::min(bandwidth, size - 1)) {
+BandedCholesky::BandedCholesky(int size, int bandwidth)
+    : size_(size), bandwidth_(std::clamp(bandwidth, 0, std::max(size - 1, 0))) {
   const bool halves = size_ > least_slenderness * bandwidth_;
   middle_ = halves ? bandwidth_ : size_;
   ends_[0] = (size_ - middle_) / 2;
@@ -142,7 +143,7 @@ bool BandedCholesky::factorize() {
              [&](std::size_t half) { definite[half] = band_[half].eliminate(0, ends_[half]); });
   if (!definite[0] || !definite[1]) return false;
   // What the upper half does to the middle.
-  for (int a = 0; a < middle_ && ends_[1] > 0; ++a) {
+  for (int a = 0; ends_[1] > 0 && a < middle_; ++a) {
     for (int b = std::max(a - bandwidth_, 0); b <= a; ++b) {
       band_[0].entry(ends_[0] + b, a - b) += band_[1].entry(ends_[1] + middle_ - 1 - a, a - b);
     }
@@ -153,18 +154,21 @@ bool BandedCholesky::factorize() {
 void BandedCholesky::solve(std::vector<double>& x) const {
   const auto unknowns = [&](std::size_t half) { return ends_[half] + middle_; };
   std::vector<double> part[2];
-  for (const std::size_t half : {0u, 1u}) part[half].assign(static_cast<std::size_t>(unknowns(half) + bandwidth_), 0.0);
+  const bool halves = ends_[1] > 0;
+  for (std::size_t half = 0; half < (halves ? 2 : 1); ++half) {
+    part[half].assign(static_cast<std::size_t>(unknowns(half) + bandwidth_), 0.0);
+  }
   std::copy_n(x.begin(), unknowns(0), part[0].begin());
   std::copy_n(x.rbegin(), ends_[1], part[1].begin());
   const double work = 2.0 * size_ * bandwidth_;
   for_halves(work, [&](std::size_t half) { band_[half].substitute(0, ends_[half], part[half].data()); });
   double* const middle = part[0].data() + ends_[0];
-  double* const copy = part[1].data() + ends_[1];
-  for (int a = 0; a < middle_; ++a) middle[a] += copy[middle_ - 1 - a];
+  double* const copy = part[1].data() + ends_[1];  // of the middle, from its end
+  for (int a = 0; halves && a < middle_; ++a) middle[a] += copy[middle_ - 1 - a];
   band_[0].substitute(ends_[0], unknowns(0), part[0].data());
   std::fill_n(middle + middle_, bandwidth_, 0.0);
   band_[0].substitute_back(ends_[0], unknowns(0), part[0].data());
-  std::reverse_copy(middle, middle + middle_, copy);
+  if (halves) std::reverse_copy(middle, middle + middle_, copy);
   for_halves(work, [&](std::size_t half) { band_[half].substitute_back(0, ends_[half], part[half].data()); });
   std::copy_n(part[0].begin(), unknowns(0), x.begin());
   std::copy_n(part[1].begin(), ends_[1], x.rbegin());

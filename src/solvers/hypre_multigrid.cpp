@@ -219,9 +219,10 @@ struct Multigrid<Dim, At>::Hierarchy {
     for (std::size_t d = 0; d < axes_.count; ++d) {
       const int n = box_.extent(axes_.axis[d]);
       if (offset[d] != 0 && period_[d] == 0) {
-        const std::ptrdiff_t last = offset[d] < 0 ? 0 : n - 1;
-        for (auto layer = values_.begin() + last * inner; layer < values_.end(); layer += n * inner) {
-          std::fill_n(layer, inner, 0.0);
+        const std::ptrdiff_t layer = offset[d] < 0 ? 0 : n - 1;
+        const std::ptrdiff_t size = box_.size();
+        for (std::ptrdiff_t at = layer * inner; at < size; at += n * inner) {
+          std::fill_n(values_.begin() + at, inner, 0.0);
         }
       }
       inner *= n;
@@ -239,25 +240,27 @@ struct Multigrid<Dim, At>::Hierarchy {
   }
 
   /// Tells PFMG the cells' widths as the matrix shows them, by which it chooses the axes to coarsen, and the weight of
-  /// Jacobi's method where they differ much. What it makes out for itself is the same to round-off, but depends on the
-  /// number of threads: equal widths would be told apart by that.
+  /// Jacobi's method where they differ much. It would make out the same, but for round-off, which depends on the number
+  /// of threads: equal widths would be told apart by that.
   void set_widths(const StencilMatrix<Dim, At>& matrix) {
     constexpr double uncoupled = 1e100;
     constexpr double much = 0.1;  // square of the standard deviation over the mean
     std::array<HYPRE_Real, 3> width{1, 1, 1};
     double strongest = 0;
     bool differ = false;
+    Field<At> coupling(layout_);  // of a point along an axis, both ways
+    const double points = static_cast<double>(box_.size());
     for (std::size_t a = 0; a < axes_.count; ++a) {
-      const auto coupling = [&](At p) {
-        double total = 0;
+      for_each_indexed<At>(layout_, box_, [&](At p, const Index<Dim>& i) {
+        coupling[p] = 0;
         for (std::size_t e = 0; e < matrix.offsets.size(); ++e) {
-          if (matrix.offsets[e][axes_.axis[a]] != 0) total -= matrix.lower[e][p];
+          if (matrix.offsets[e][axes_.axis[a]] == 0) continue;
+          if (stays(i + matrix.offsets[e])) coupling[p] -= matrix.lower[e][p];
+          if (stays(i - matrix.offsets[e])) coupling[p] -= matrix.lower[e][p + matrix.steps[e]];
         }
-        return total;
-      };
-      const double points = static_cast<double>(box_.size());
-      const double mean = sum<At>(layout_, box_, coupling) / points;
-      const double square = sum<At>(layout_, box_, [&](At p) { return coupling(p) * coupling(p); }) / points;
+      });
+      const double mean = sum<At>(layout_, box_, [&](At p) { return coupling[p]; }) / points;
+      const double square = sum<At>(layout_, box_, [&](At p) { return coupling[p] * coupling[p]; }) / points;
       differ = differ || square - mean * mean > much * mean * mean;
       width[a] = mean;
       strongest = std::max(strongest, mean);
@@ -268,6 +271,15 @@ struct Multigrid<Dim, At>::Hierarchy {
     }
     HYPRE_StructPFMGSetDxyz(solver_, width.data());
     if (differ) HYPRE_StructPFMGSetJacobiWeight(solver_, 2.0 / 3);
+  }
+
+  /// Whether a neighbour lies in the box, or across the ends of an axis that hypre knows as periodic.
+  bool stays(const Index<Dim>& i) const {
+    for (std::size_t d = 0; d < axes_.count; ++d) {
+      const int axis = axes_.axis[d];
+      if (period_[d] == 0 && (i[axis] < box_.lo[axis] || i[axis] >= box_.hi[axis])) return false;
+    }
+    return true;
   }
 
   void create_solver(const StencilMatrix<Dim, At>& matrix) {

@@ -1,9 +1,13 @@
 // The functional of viscoplastic diffusion: its gradient, its matrix, and motions that carry no stress.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
+#include "physics/velocity_solver.hpp"
 #include "physics/viscous_functional.hpp"
 #include "support/mixtures.hpp"
 
@@ -132,6 +136,34 @@ TEST(PhysicsViscous, MatrixIsTheDerivativeOfTheGradientForNewtonianLiquids) {
     const auto difference = setup.combination(setup.gradient(setup.combination(u, 1, v)), -1, setup.gradient(u));
     EXPECT_LE(setup.size(setup.combination(difference, -1, setup.times_matrix(v))), 1e-12 * setup.size(difference));
   });
+}
+
+/// Factors of the tangent, where cells are their own neighbours round an axis, neighbours on both sides, or neither.
+template <int Dim>
+void expect_solution_round_axis(int axis, int n) {
+  SCOPED_TRACE("axis " + std::to_string(axis) + ", " + std::to_string(n) + " cells");
+  std::array<std::vector<double>, Dim> faces;
+  faces.fill(testing::uniform_axis(Dim == 2 ? 9 : 4));
+  faces[static_cast<std::size_t>(axis)] = testing::uniform_axis(n);
+  const Grid<Dim> grid(faces, Dim == 2 ? Geometry::planar : Geometry::cartesian);
+  Sides<Dim> sides = testing::all_sides(grid, SideKind::no_slip);
+  for (int s = 0; s < 2; ++s) sides.at(axis, s).kind = SideKind::periodic;
+  Problem<Dim> setup(Domain<Dim>(grid, sides), Papanastasiou{0.1, 0.3, 100}, nearly_full<Dim>);
+  const CellVectors<Dim> u = setup.rough(1);
+  update_plastic_stress(setup.domain, u, setup.rough(3), setup.work);
+  assemble_matrix(setup.domain, u, dt, Linearisation::tangent, setup.work);
+  const CellVectors<Dim> b = setup.rough(5);
+  CellVectors<Dim> x(setup.domain.layout());
+  const SolveReport report = VelocitySolver<Dim>(setup.work.matrix).solve(b, x, 1e-11);
+  EXPECT_EQ(report.method, "cholesky");
+  EXPECT_LE(setup.size(setup.combination(setup.times_matrix(x), -1, b)), 1e-10 * setup.size(b));
+}
+
+TEST(PhysicsViscous, FactorsSolveRoundPeriodicAxes) {
+  for (const int n : {1, 2, 3, 17}) {
+    for (int axis = 0; axis < 2; ++axis) expect_solution_round_axis<2>(axis, n);
+  }
+  for (int axis = 0; axis < 3; ++axis) expect_solution_round_axis<3>(axis, 1);
 }
 
 TEST(PhysicsViscous, LinearStressWithoutAMatrixIsTheMatrix) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solvers/conjugate_gradients.hpp"
+#include "support/threads.hpp"
 #include "unit/solvers_problems.hpp"
 
 namespace quicksand {
@@ -101,6 +102,34 @@ TEST(Multigrid, WorksOnAPartOfTheGridAndLeavesTheRestAlone) {
   multigrid.cycle(rough_field(matrix), z);
   EXPECT_EQ(z[grid.cell(Index<2>{{4, 8}})], 7.0);
   EXPECT_NE(z[grid.cell(Index<2>{{5, 8}})], 7.0);
+}
+
+/// What a cycle makes of a rough residual, hierarchy and all on so many threads.
+template <int Dim, class At>
+Field<At> cycled(const StencilMatrix<Dim, At>& matrix, MultigridKind kind, int threads) {
+  const testing::Threads of_all(threads);
+  Field<At> z(matrix.layout);
+  Multigrid<Dim, At>(matrix, kind).cycle(rough_field(matrix), z);
+  return z;
+}
+
+/// Without OpenMP in hypre this is hardly a question.
+TEST(Multigrid, CyclesDoNotDependOnTheNumberOfThreads) {
+  const auto expect = [](const auto& matrix) {
+    for (const MultigridKind kind : {MultigridKind::pfmg, MultigridKind::smg}) {
+      auto serial = cycled(matrix, kind, 1);
+      for (const int threads : {2, 3}) {
+        auto threaded = cycled(matrix, kind, threads);
+        EXPECT_EQ(serial.values(), threaded.values()) << threads;
+      }
+    }
+  };
+  const Grid<3> space({uniform_axis(32), graded_axis(32, 3), uniform_axis(32)}, Geometry::cartesian);
+  expect(cell_laplacian(space, [](const auto& i) { return i[0] + i[1] > 9; }));
+  const Grid<2> plane({graded_axis(96, 3), uniform_axis(80)}, Geometry::planar);
+  expect(cell_laplacian(plane, all_but_one));
+  expect(node_laplacian(plane, all_but_one));
+  expect(cell_laplacian(plane.with_periodic({{false, true}}), all_but_one));
 }
 
 TEST(Multigrid, CanBeMovedAndRebuilt) {
