@@ -15,10 +15,8 @@
 
 namespace quicksand {
 
-namespace detail {
-
-/// Leaves new values unset, for a field to set them: memory that is new to the process lies close to the processor that
-/// writes to it first, which is to be the one whose thread works on that part of a field.
+/// Leaves new values unset, for their owner to set them: memory that is new to the process lies close to the processor
+/// that writes to it first, which is to be the one whose thread works on that part of them.
 template <class T>
 struct UntouchedAllocator : std::allocator<T> {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -37,13 +35,11 @@ struct UntouchedAllocator : std::allocator<T> {
   }
 };
 
-}  // namespace detail
-
 /// One value of type T per position of kind `At`, ghost layers included.
 template <class At, class T = double>
 class Field {
  public:
-  using Values = std::vector<T, detail::UntouchedAllocator<T>>;
+  using Values = std::vector<T, UntouchedAllocator<T>>;
 
   Field() = default;
   template <int Dim>

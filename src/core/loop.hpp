@@ -17,20 +17,21 @@ namespace detail {
 /// Loops over fewer points than this run on one thread: starting a team costs more than they do.
 inline constexpr std::ptrdiff_t smallest_threaded_loop = QUICKSAND_SMALLEST_THREADED_LOOP;
 
-/// Calls body(r) for r in [0, count), in threads where there are `points` enough.
+}  // namespace detail
+
+/// Calls body(r) for r in [0, count), in threads where the work is worth it.
+/// \param points  the work, in points of a simple loop
 template <class Body>
 void for_each_number(std::ptrdiff_t count, std::ptrdiff_t points, Body&& body) {
   const auto run = [&body](std::ptrdiff_t first, std::ptrdiff_t last) {
     for (std::ptrdiff_t r = first; r < last; ++r) body(r);
   };
-  if (points >= smallest_threaded_loop) {
+  if (points >= detail::smallest_threaded_loop) {
     share_among_threads(count, run);
   } else {
     run(0, count);
   }
 }
-
-}  // namespace detail
 
 /// Rows (runs along x) of a box, numbered 0 ... count-1: for loops over rows in threads, or serial in a fixed order.
 template <int Dim>
@@ -61,7 +62,7 @@ struct Rows {
   /// \param cost  of a point, in that of a point of a simple loop
   template <class Body>
   void for_each(Body&& body, int cost = 1) const {
-    detail::for_each_number(count, count * length * cost, [&](std::ptrdiff_t r) { body(start(r)); });
+    for_each_number(count, count * length * cost, [&](std::ptrdiff_t r) { body(start(r)); });
   }
 };
 
@@ -161,7 +162,7 @@ template <class At, int Dim, class F>
 double sum(const Layout<Dim>& layout, const Box<Dim>& box, F&& f) {
   const Rows<Dim> rows(layout, box);
   std::vector<double> partial(static_cast<std::size_t>(rows.count), 0.0);
-  detail::for_each_number(rows.count, rows.count * rows.length, [&](std::ptrdiff_t r) {
+  for_each_number(rows.count, rows.count * rows.length, [&](std::ptrdiff_t r) {
     const std::ptrdiff_t start = rows.start(r);
     double total = 0;
 #pragma omp simd reduction(+ : total)
@@ -178,7 +179,7 @@ template <class At, int Dim, class F>
 double maximum(const Layout<Dim>& layout, const Box<Dim>& box, double floor, F&& f) {
   const Rows<Dim> rows(layout, box);
   std::vector<double> partial(static_cast<std::size_t>(rows.count), floor);
-  detail::for_each_number(rows.count, rows.count * rows.length, [&](std::ptrdiff_t r) {
+  for_each_number(rows.count, rows.count * rows.length, [&](std::ptrdiff_t r) {
     const std::ptrdiff_t start = rows.start(r);
     double largest = floor;
     for (int i = 0; i < rows.length; ++i) largest = std::max(largest, f(At{start + i}));

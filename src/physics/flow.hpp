@@ -60,7 +60,7 @@ struct StepReport {
 template <int Dim>
 struct StepInProgress {
   int part;  ///< of the step that has ended, from 1: phase by phase, convection being in two with one between
-  FaceVelocities<Dim>* face_velocities;  ///< until convection is done, else null; only mac
+  FaceVelocities<Dim>* face_velocities;  ///< mac only; null once convection is done
   CellVectors<Dim>& momentum_tilde;      ///< after parts 3 and 4; lies where next.u is from part 6 on
   CellVectors<Dim>& u_bar;               ///< after parts 5 to 7; lies in next.acceleration
   State<Dim>& next;                      ///< fractions from part 3 on, velocities from part 6 on

@@ -11,8 +11,8 @@ namespace {
 /// In cells filled less than this the velocity is the quotient of two round-off errors.
 constexpr double smallest_filling = 1e-12;
 
-/// Coupling of a cell and the one below it along d in -div grad, finite volumes; none where both are the one cell of a
-/// ring. \param high  of the cell
+/// Coupling of the cell with index `high` and the one below it along d in -div grad, finite volumes; none where both
+/// are the one cell of a ring.
 template <int Dim>
 double coupling(const Grid<Dim>& grid, int d, const Index<Dim>& high) {
   if (grid.layout().periodic(d) && grid.layout().cells()[d] == 1) return 0;

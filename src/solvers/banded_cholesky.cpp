@@ -4,8 +4,6 @@
 #include <array>
 #include <numeric>
 
-#include "core/threads.hpp"
-
 namespace quicksand {
 
 template <int Dim>
@@ -42,8 +40,9 @@ namespace {
 constexpr int panel = 4;
 /// A band has two halves where it is so many times as long as wide.
 constexpr int least_slenderness = 8;
-/// Operations that are worth a second thread.
-constexpr double worth_a_thread = 4e5;
+/// Operations that count as a point of a simple loop. Halves are worth a second thread when they take some hundred
+/// microseconds, because much that is serial comes between them.
+constexpr double operations_per_point = 50;
 
 }  // namespace
 
@@ -115,15 +114,9 @@ void BandedCholesky::Band::substitute_back(int first, int last, double* x) const
 }
 
 template <class Body>
-void BandedCholesky::for_halves(double work, Body&& body) const {
-  const auto run = [&body](std::ptrdiff_t first, std::ptrdiff_t last) {
-    for (std::ptrdiff_t half = first; half < last; ++half) body(static_cast<std::size_t>(half));
-  };
-  if (work >= worth_a_thread) {
-    share_among_threads(2, run);
-  } else {
-    run(0, 2);
-  }
+void BandedCholesky::for_halves(double operations, Body&& body) const {
+  for_each_number(2, static_cast<std::ptrdiff_t>(operations / operations_per_point),
+                  [&](std::ptrdiff_t half) { body(static_cast<std::size_t>(half)); });
 }
 
 BandedCholesky::BandedCholesky(int size, int bandwidth)
@@ -160,8 +153,8 @@ void BandedCholesky::solve(std::vector<double>& x) const {
   }
   std::copy_n(x.begin(), unknowns(0), part[0].begin());
   std::copy_n(x.rbegin(), ends_[1], part[1].begin());
-  const double work = 2.0 * size_ * bandwidth_;
-  for_halves(work, [&](std::size_t half) { band_[half].substitute(0, ends_[half], part[half].data()); });
+  const double operations = 2.0 * size_ * bandwidth_;
+  for_halves(operations, [&](std::size_t half) { band_[half].substitute(0, ends_[half], part[half].data()); });
   double* const middle = part[0].data() + ends_[0];
   double* const copy = part[1].data() + ends_[1];  // of the middle, from its end
   for (int a = 0; halves && a < middle_; ++a) middle[a] += copy[middle_ - 1 - a];
@@ -169,7 +162,7 @@ void BandedCholesky::solve(std::vector<double>& x) const {
   std::fill_n(middle + middle_, bandwidth_, 0.0);
   band_[0].substitute_back(ends_[0], unknowns(0), part[0].data());
   if (halves) std::reverse_copy(middle, middle + middle_, copy);
-  for_halves(work, [&](std::size_t half) { band_[half].substitute_back(0, ends_[half], part[half].data()); });
+  for_halves(operations, [&](std::size_t half) { band_[half].substitute_back(0, ends_[half], part[half].data()); });
   std::copy_n(part[0].begin(), unknowns(0), x.begin());
   std::copy_n(part[1].begin(), ends_[1], x.rbegin());
 }

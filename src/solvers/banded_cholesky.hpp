@@ -86,12 +86,12 @@ class BandedCholesky {
    private:
     int bandwidth_ = 0;
     std::size_t stride_ = 0;
-    std::vector<double, detail::UntouchedAllocator<double>> values_;
+    std::vector<double, UntouchedAllocator<double>> values_;
   };
 
-  /// Calls body(0) and body(1) for the two halves, in threads where the work is worth it.
+  /// Calls body(0) and body(1) for the two halves, in threads where so many operations are worth it.
   template <class Body>
-  void for_halves(double work, Body&& body) const;
+  void for_halves(double operations, Body&& body) const;
 
   int size_, bandwidth_;
   int middle_;    ///< unknowns between the halves, the last of either; all of them where there is one half

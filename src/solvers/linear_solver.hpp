@@ -19,9 +19,11 @@ struct SolveOptions : Tolerance {
 /// A must be symmetric and positive definite or, all-Neumann, have the constants (over the rows that are not identity
 /// rows) as its null space. The latter is recognised by the row sums; then b is made consistent by removing its mean,
 /// x is returned with mean zero; the matrix changes meanwhile and is the same on return. When the method does not
-/// converge, SMG and then Jacobi begin from zero; the best x is kept. \param b  right-hand side on the box; finite
-/// \param x  on entry the guess; the layer around the box must be zero wherever couplings there are not \returns  the
-/// report; a caller that can't go on without convergence passes it to require_converged()
+/// converge, SMG and then Jacobi begin from zero; the best x is kept.
+///
+/// \param b  right-hand side on the box; must be finite
+/// \param x  on entry the guess; the layer around the box must be zero wherever couplings there are not
+/// \returns  the report; a caller that can't go on without convergence passes it to require_converged()
 template <int Dim, class At>
 [[nodiscard]] SolveReport solve(StencilMatrix<Dim, At>& matrix, const Field<At>& b, Field<At>& x,
                                 const SolveOptions& options = {});
