@@ -33,7 +33,7 @@ struct Bed {
   testing::Mixture<Dim> mixture;
   CellVectors<Dim> u, acceleration;
   ConvectionWork<Dim> convection;
-  FaceVelocities<Dim> faces;
+  FaceScalars<Dim> u_mac;
 
   Bed(const Grid<Dim>& grid, const Law& law)
       : domain(testing::make_domain(Grid<Dim>(grid), SideKind::no_slip)),
@@ -41,7 +41,7 @@ struct Bed {
         u(domain.layout()),
         acceleration(domain.layout()),
         convection(domain.layout()),
-        faces(domain.layout()) {
+        u_mac(domain.layout()) {
     testing::set_cells(domain.grid, mixture.phi[0], [&](const Vec<Dim>& x) {
       const double depth = (0.9 + 0.05 * x[0] - x[Dim - 1]) / domain.grid.smallest_width();
       return std::clamp(depth + 0.5, 0.0, 1.0);
@@ -51,8 +51,7 @@ struct Bed {
       testing::set_cells(domain.grid, u[d], [&](const Vec<Dim>& x) { return std::sin(5 * x[d] + 7 * x[(d + 1) % Dim]); });
     }
     fill_velocity_ghosts(domain, u);
-    predict_velocities(domain, input(), dt, convection, faces);
-    split_velocities(domain, input(), convection, faces);
+    predict_velocities(domain, input(), dt, convection, u_mac);
   }
   ConvectionInput<Dim> input() const {
     return {mixture.phi, mixture.total, mixture.rho, u, acceleration, mixture.liquid, mixture.interfaces};
@@ -130,7 +129,7 @@ void register_kernels(int n) {
       }));
   add("levers", with_bed(2 + D, inviscid, [](Bed<Dim>& bed) {
         return [&] {
-          find_pressure_elements(bed.domain, bed.mixture.species, bed.mixture.total, bed.mixture.interfaces,
+          find_pressure_elements(bed.domain, bed.mixture.species, bed.mixture.phi, bed.mixture.total, bed.mixture.interfaces,
                                  bed.mixture.elements);
         };
       }));

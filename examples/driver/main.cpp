@@ -37,7 +37,7 @@ Flow<2> column_of_water(int cells_per_width) {
 
   Flow<2> flow(Domain<2>(grid, sides), parameters);
   const Shape column = BoxShape{.from = {0, 0, 0}, .to = {1, 0, 1}};
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<2>& i) {
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<2>& i) {
     flow.state().phi[0][c] = fraction(column, grid, i);
   });
   flow.initialize();

@@ -43,7 +43,7 @@ void fill_shapes(const CaseConfig& config, Flow<Dim>& flow) {
   for (const InitialFill& fill : config.initial) {
     const std::size_t s = species_number(config, fill.fill);
     const Vec<Dim> velocity = in_axes<Dim>(fill.velocity);
-    for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+    for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
       const double part = std::min(fraction(fill.shape, grid, i), 1 - filled[c]);
       if (!(part > 0)) return;
       state.phi[s][c] += part;
@@ -66,7 +66,7 @@ void cut_bubbles(const CaseConfig& config, Flow<Dim>& flow) {
     const Shape ball = SphereShape{bubble.center, bubble.radius};
     const int id = ++state.gas.last_id;
     state.gas.bubbles.push_back({.id = id, .exponent = bubble.adiabatic_exponent, .pressure = bubble.pressure});
-    for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+    for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
       const double gas = fraction(ball, grid, i);
       for (CellField& phi : state.phi) phi[c] *= gas < full ? 1 - gas : 0.0;
       if (gas > 0.5) state.gas.region[c] = id;

@@ -55,15 +55,15 @@ InitialState<Dim> fill_cells(const CaseConfig& config) {
   const std::vector<InitialBubble> bubbles = initial_bubbles(config);
   for (const InitialFill& fill : config.initial) {
     CellField phi(state.grid.layout());
-    for_each_indexed<Cell>(state.grid.layout(), cells, [&](Cell c, const Index<Dim>& i) {
+    for_each<Cell>(state.grid.layout(), cells, [&](Cell c, const Index<Dim>& i) {
       phi[c] = fraction(fill.shape, state.grid, i);
       for (const InitialBubble& bubble : bubbles) {
         phi[c] *= 1 - fraction(SphereShape{bubble.center, bubble.radius}, state.grid, i);
       }
       state.liquid[c] += phi[c];
     });
-    state.volumes.push_back(
-        sum<Cell>(state.grid.layout(), cells, [&](Cell c) { return phi[c] * state.grid.volume(c); }));
+    state.volumes.push_back(sum<Cell>(state.grid.layout(), cells,
+                                      [&](Cell c, const Index<Dim>& i) { return phi[c] * state.grid.volume(i); }));
   }
   return state;
 }

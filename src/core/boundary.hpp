@@ -80,7 +80,7 @@ void fill_ghosts(const Grid<Dim>& grid, CellField& field, Rule&& rule) {
       const Step along = grid.step(d);
       const int mirror_sum = s == 0 ? -1 : 2 * grid.owned_cells()[d] - 1;
       const int last = grid.owned_cells()[d] - 1;
-      for_each_indexed<Cell>(grid.layout(), layer, [&](Cell c, const Index<Dim>& i) {
+      for_each<Cell>(grid.layout(), layer, [&](Cell c, const Index<Dim>& i) {
         // On an axis of one cell the second ghost mirrors the only cell too.
         const int mirror = std::clamp(mirror_sum - i[d], 0, last);
         field[c] = r.alpha * field[c + (mirror - i[d]) * along] + r.beta;

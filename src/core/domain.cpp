@@ -71,16 +71,13 @@ template <int Dim>
 Domain<Dim>::Domain(const Grid<Dim>& g, const Sides<Dim>& s)
     : grid(g.with_periodic(periodic_axes(s))),
       sides(s),
-      aperture(grid.layout()),
       beyond(grid.layout(), Beyond::nothing),
       side_velocities(grid, sides) {
   for (int d = 0; d < Dim; ++d) {
-    for_each_indexed<Face>(layout(), grow(grid.faces(d), 1),
-                           [&](Face f, const Index<Dim>& i) { aperture[d][f] = grid.area(d, i); });
-    for (int side = 0; side < 2; ++side) {
-      if (is_passable(sides.at(d, side))) continue;
-      for_each<Face>(layout(), side_faces(d, side), [&](Face f) { aperture[d][f] = 0; });
-    }
+    const auto closed = [&](int side) { return grid.at_boundary(d, side) && !is_passable(sides.at(d, side)); };
+    const bool on_axis = d == 0 && grid.axisymmetric() && grid.global_faces(0).front() == 0;
+    if (closed(0) || (on_axis && grid.at_boundary(0, 0))) closed_[d].low = 0;
+    if (closed(1)) closed_[d].high = grid.owned_cells()[d];
   }
   const auto mark = [&](Beyond what) {
     return [this, what](int d, int side) {
@@ -104,7 +101,7 @@ void fill_velocity_ghosts(const Domain<Dim>& domain, CellVectors<Dim>& u) {
   fill_acceleration_ghosts(domain.grid, domain.sides, u);
   // What comes in brings the velocity of its side.
   for_each_side(domain.grid, domain.sides, SideKind::inflow, [&](int d, int s) {
-    for_each_indexed<Cell>(domain.layout(), ghosts_beyond(domain.grid, d, s), [&](Cell c, const Index<Dim>& i) {
+    for_each<Cell>(domain.layout(), ghosts_beyond(domain.grid, d, s), [&](Cell c, const Index<Dim>& i) {
       const Vec<Dim> given = domain.side_velocities.at(d, s, domain.grid.centre(i));
       for (int e = 0; e < Dim; ++e) u[e][c] = given[e];
     });

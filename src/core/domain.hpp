@@ -28,12 +28,11 @@ class SideVelocities {
   Vec<Dim> low_, high_;  ///< ends of the domain
 };
 
-/// Grid, sides and the face areas that liquid can cross.
+/// Grid, sides and what lies beyond them.
 template <int Dim>
 struct Domain {
   Grid<Dim> grid;
   Sides<Dim> sides;
-  FaceScalars<Dim> aperture;   ///< face area, zero on closed sides of the domain
   Field<Cell, Beyond> beyond;  ///< both ghost layers included
   SideVelocities<Dim> side_velocities;
 
@@ -42,8 +41,22 @@ struct Domain {
   Domain(const Grid<Dim>& g, const Sides<Dim>& s);
 
   const Layout<Dim>& layout() const { return grid.layout(); }
+  /// Whether liquid can cross the low face along d of the cell with index i: it can't on closed sides of the
+  /// domain and at the axis.
+  bool passes(int d, const Index<Dim>& i) const { return i[d] != closed_[d].low && i[d] != closed_[d].high; }
+  /// The area that it can cross there, with one ghost layer.
+  double aperture(int d, const Index<Dim>& i) const { return passes(d, i) ? grid.area(d, i) : 0.0; }
   /// Layer of faces on side s of axis d (empty where the owned box does not reach the domain's boundary).
   Box<Dim> side_faces(int d, int s) const;
+
+ private:
+  /// Where the faces on closed sides of an axis are.
+  struct ClosedFaces {
+    static constexpr int none = -1 - ghosts;
+    int low = none;
+    int high = none;
+  };
+  ClosedFaces closed_[Dim];
 };
 
 /// Ghost cells of a velocity for convection and redistribution.

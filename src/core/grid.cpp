@@ -60,7 +60,6 @@ Grid<Dim>::Grid(std::array<std::vector<double>, Dim> faces, Geometry geometry, c
   }
   layout_ = Layout<Dim>(n, closed);
   for (int d = 0; d < Dim; ++d) store_axis(d);
-  store_metrics();
 }
 
 template <int Dim>
@@ -103,33 +102,16 @@ void Grid<Dim>::store_axis(int d) {
   }
   // Copies must not differ by round-off: what leaves at one end of the axis enters at the other.
   for (int i = 0; i < n; ++i) axis.width[at(i)] = axis.width[at(layout_.image(d, i - ghosts) + ghosts)];
+  axis.spacing_around.resize(axis.width.size());
+  for (int i = 1; i + 1 < n; ++i) {
+    axis.spacing_around[at(i)] = axis.width[at(i)] + 0.5 * (axis.width[at(i - 1)] + axis.width[at(i + 1)]);
+  }
+  // |r|: ghost cells beyond the axis mirror those inside.
+  for (int i = 0; i < n; ++i) axis.measure.push_back((radial ? std::abs(axis.centre[at(i)]) : 1.0) * axis.width[at(i)]);
+  for (int i = 0; i <= n; ++i) axis.face_weight.push_back(radial ? std::abs(axis.face[at(i)]) : 1.0);
   double narrowest = length;
   for (int i = 0; i < n_global; ++i) narrowest = std::min(narrowest, global[at(i + 1)] - global[at(i)]);
   smallest_width_ = d == 0 ? narrowest : std::min(smallest_width_, narrowest);
-}
-
-template <int Dim>
-void Grid<Dim>::store_metrics() {
-  volume_ = CellField(layout_);
-  width_ = CellVectors<Dim>(layout_);
-  for_each_indexed<Cell>(layout_, grow(cells(), ghosts), [&](Cell c, const Index<Dim>& i) {
-    // |r|: ghost cells beyond the axis mirror those inside.
-    volume_[c] = axisymmetric() ? std::abs(centre_position(0, i[0])) : 1.0;
-    for (int d = 0; d < Dim; ++d) {
-      width_[d][c] = width_1d(d, i[d]);
-      volume_[c] *= width_[d][c];
-    }
-  });
-}
-
-template <int Dim>
-double Grid<Dim>::area(int d, const Index<Dim>& i) const {
-  double area = 1;
-  if (axisymmetric()) area = std::abs(d == 0 ? face_position(0, i[0]) : centre_position(0, i[0]));
-  for (int e = 0; e < Dim; ++e) {
-    if (e != d) area *= width_1d(e, i[e]);
-  }
-  return area;
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Rectilinear grids: planar 2-D (x, z), axisymmetric (r, z) and 3-D (x, y, z), with stored metrics.
+/// Rectilinear grids: planar 2-D (x, z), axisymmetric (r, z) and 3-D (x, y, z). Volumes, areas and widths are
+/// products of numbers along the axes.
 #include <array>
 #include <vector>
 
@@ -62,18 +63,31 @@ class Grid {
   /// Cell multi-index (owned cells start at 0) to flat index.
   Cell cell(const Index<Dim>& i) const { return {layout_.flat(i)}; }
 
-  double volume(Cell c) const { return volume_[c]; }
-  double width(int d, Cell c) const { return width_[d][c]; }
-  const CellField& volumes() const { return volume_; }
+  /// Volume of the cell with index i, ghosts included.
+  double volume(const Index<Dim>& i) const {
+    double volume = 1;
+    for (int d = 0; d < Dim; ++d) volume *= axes_[at(d)].measure[at(i[d] + ghosts)];
+    return volume;
+  }
+  /// The same for a single cell: loops over a grid know the index, which takes divisions to find.
+  double volume(Cell c) const { return volume(layout_.multi(c.n)); }
 
   /// 1-D metrics along axis d for the owned index i and its ghosts, -ghosts <= i < n + ghosts (faces: <= n + ghosts).
   double face_position(int d, int i) const { return axes_[at(d)].face[at(i + ghosts)]; }
   double centre_position(int d, int i) const { return axes_[at(d)].centre[at(i + ghosts)]; }
   double width_1d(int d, int i) const { return axes_[at(d)].width[at(i + ghosts)]; }
+  /// Distance of the centres of the cells before and after cell i; both have to be there.
+  double spacing_around(int d, int i) const { return axes_[at(d)].spacing_around[at(i + ghosts)]; }
   const LineElement& line_element(int d, int i) const { return axes_[at(d)].element[at(i + ghosts)]; }
   Vec<Dim> centre(const Index<Dim>& i) const;
   /// Area of the low face along d of the cell with index i, ghosts included.
-  double area(int d, const Index<Dim>& i) const;
+  double area(int d, const Index<Dim>& i) const {
+    double area = axes_[at(d)].face_weight[at(i[d] + ghosts)];
+    for (int e = 0; e < Dim; ++e) {
+      if (e != d) area *= axes_[at(e)].measure[at(i[e] + ghosts)];
+    }
+    return area;
+  }
 
   /// Face coordinates of the whole domain along d.
   const std::vector<double>& global_faces(int d) const { return global_faces_[at(d)]; }
@@ -82,11 +96,13 @@ class Grid {
  private:
   struct Axis {
     std::vector<double> face, centre, width;
+    std::vector<double> spacing_around;
+    std::vector<double> measure;      ///< width times the weight of the axis, |r| on a radius and else 1
+    std::vector<double> face_weight;  ///< the weight on the faces
     std::vector<LineElement> element;
   };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   void store_axis(int d);
-  void store_metrics();
 
   std::array<std::vector<double>, Dim> global_faces_;
   Geometry geometry_;
@@ -95,8 +111,6 @@ class Grid {
   Box<Dim> owned_global_;
   Layout<Dim> layout_;
   std::array<Axis, Dim> axes_;
-  CellField volume_;
-  CellVectors<Dim> width_;
   double smallest_width_ = 0;
 };
 

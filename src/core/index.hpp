@@ -5,6 +5,8 @@
 /// All fields of a grid share one ghosted index space. A cell, the face on its low side along an axis and the
 /// node at its low corner carry the same flat number but different types, so that a cell can't index a node field.
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 
 namespace quicksand {
 
@@ -51,6 +53,13 @@ struct Index {
   friend constexpr bool operator==(const Index&, const Index&) = default;
 };
 
+/// The index k places on along axis d.
+template <int Dim>
+constexpr Index<Dim> shifted(Index<Dim> i, int d, int k) {
+  i[d] += k;
+  return i;
+}
+
 /// Point or vector of `Dim` reals.
 template <int Dim>
 struct Vec {
@@ -68,6 +77,14 @@ struct AxisFlags {
   constexpr bool operator[](int d) const { return v[d]; }
   friend constexpr bool operator==(const AxisFlags&, const AxisFlags&) = default;
 };
+
+/// Calls body(d) for the axes 0 ... Dim - 1, each as a constant: loops inside then are compiled for their axis, and one
+/// of which each point is computed from the 1-D metrics runs in vector registers.
+template <int Dim, class Body>
+void for_each_axis(Body&& body) {
+  [&]<int... axis>(std::integer_sequence<int, axis...>) { (body(std::integral_constant<int, axis>{}), ...); }
+  (std::make_integer_sequence<int, Dim>{});
+}
 
 /// Half-open box of multi-indices, lo <= i < hi.
 template <int Dim>

@@ -4,6 +4,7 @@
 ///
 /// Reductions add row by row and then the rows in order, so that a result does not depend on the number of threads.
 #include <algorithm>
+#include <type_traits>
 #include <vector>
 
 #include "core/index.hpp"
@@ -66,23 +67,38 @@ struct Rows {
   }
 };
 
-/// Calls body(At) for every point of the box. The body writes only to its own point.
+namespace detail {
+
+/// body(At), or body(At, Index) where it takes the multi-index as well. \param i  of the point, or of one of its row,
+/// `x` points before it
+template <class At, int Dim, class Body>
+auto at_point(Body&& body, At p, Index<Dim> i, int x) {
+  if constexpr (std::is_invocable_v<Body, At, const Index<Dim>&>) {
+    i[0] += x;
+    return body(p, i);
+  } else {
+    return body(p);
+  }
+}
+
+/// Multi-index of the first point of a row, for bodies that take it.
+template <class At, int Dim, class Body>
+Index<Dim> row_index(const Layout<Dim>& layout, std::ptrdiff_t start) {
+  if constexpr (std::is_invocable_v<Body, At, const Index<Dim>&>) return layout.multi(start);
+  return {};
+}
+
+}  // namespace detail
+
+/// Calls body(At), or body(At, Index) if it takes the multi-index as well, for every point of the box. The body writes
+/// only to its own point.
 template <class At, int Dim, class Body>
 void for_each(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
   const Rows<Dim> rows(layout, box);
   rows.for_each([&](std::ptrdiff_t start) {
+    const Index<Dim> first = detail::row_index<At, Dim, Body&>(layout, start);
 #pragma omp simd
-    for (int i = 0; i < rows.length; ++i) body(At{start + i});
-  });
-}
-
-/// Calls body(At, Index) for every point of the box; for loops that need the multi-index (1-D metrics, shapes).
-template <class At, int Dim, class Body>
-void for_each_indexed(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
-  const Rows<Dim> rows(layout, box);
-  rows.for_each([&](std::ptrdiff_t start) {
-    Index<Dim> index = layout.multi(start);
-    for (int i = 0; i < rows.length; ++i, ++index[0]) body(At{start + i}, index);
+    for (int i = 0; i < rows.length; ++i) detail::at_point(body, At{start + i}, first, i);
   });
 }
 
@@ -128,9 +144,9 @@ void for_each_row_of_colour(const Layout<Dim>& layout, const Box<Dim>& box, int 
 
 }  // namespace detail
 
-/// Like for_each_indexed, in passes such that a pass visits every second point along each axis: a body may also write
-/// to points that neighbours of the same pass do not touch (scatter from an element to its corners). The order of
-/// additions to a point is the same for any number of threads.
+/// Like for_each with body(At, Index), in passes such that a pass visits every second point along each axis: a body may
+/// also write to points that neighbours of the same pass do not touch (scatter from an element to its corners). The
+/// order of additions to a point is the same for any number of threads.
 template <class At, int Dim, class Body>
 void for_each_coloured(const Layout<Dim>& layout, const Box<Dim>& box, Body&& body) {
   constexpr int passes = Dim == 2 ? 9 : 27;
@@ -157,16 +173,17 @@ void for_each_coloured_row(const Layout<Dim>& layout, const Box<Dim>& box, int c
   }
 }
 
-/// Sum of f(At) over the box.
+/// Sum of f(At), or f(At, Index), over the box.
 template <class At, int Dim, class F>
 double sum(const Layout<Dim>& layout, const Box<Dim>& box, F&& f) {
   const Rows<Dim> rows(layout, box);
   std::vector<double> partial(static_cast<std::size_t>(rows.count), 0.0);
   for_each_number(rows.count, rows.count * rows.length, [&](std::ptrdiff_t r) {
     const std::ptrdiff_t start = rows.start(r);
+    const Index<Dim> first = detail::row_index<At, Dim, F&>(layout, start);
     double total = 0;
 #pragma omp simd reduction(+ : total)
-    for (int i = 0; i < rows.length; ++i) total += f(At{start + i});
+    for (int i = 0; i < rows.length; ++i) total += detail::at_point(f, At{start + i}, first, i);
     partial[static_cast<std::size_t>(r)] = total;
   });
   double total = 0;
@@ -174,15 +191,18 @@ double sum(const Layout<Dim>& layout, const Box<Dim>& box, F&& f) {
   return total;
 }
 
-/// Largest f(At) over the box, at least `floor`. NaN is not seen: check finiteness apart.
+/// Largest f(At), or f(At, Index), over the box, at least `floor`. NaN is not seen: check finiteness apart.
 template <class At, int Dim, class F>
 double maximum(const Layout<Dim>& layout, const Box<Dim>& box, double floor, F&& f) {
   const Rows<Dim> rows(layout, box);
   std::vector<double> partial(static_cast<std::size_t>(rows.count), floor);
   for_each_number(rows.count, rows.count * rows.length, [&](std::ptrdiff_t r) {
     const std::ptrdiff_t start = rows.start(r);
+    const Index<Dim> first = detail::row_index<At, Dim, F&>(layout, start);
     double largest = floor;
-    for (int i = 0; i < rows.length; ++i) largest = std::max(largest, f(At{start + i}));
+    for (int i = 0; i < rows.length; ++i) {
+      largest = std::max(largest, detail::at_point(f, At{start + i}, first, i));
+    }
     partial[static_cast<std::size_t>(r)] = largest;
   });
   double largest = floor;

@@ -13,7 +13,7 @@ void wrap_axis(const Layout<Dim>& layout, Box<Dim> box, int d, int layers, Field
   for (int s = 0; s < 2; ++s) {
     box.lo[d] = s == 0 ? -layers : layout.cells()[d];
     box.hi[d] = box.lo[d] + layers;
-    for_each_indexed<At>(layout, box, [&](At p, const Index<Dim>& i) {
+    for_each<At>(layout, box, [&](At p, const Index<Dim>& i) {
       field[p] = field[p + (layout.image(d, i[d]) - i[d]) * layout.step(d)];
     });
   }

@@ -15,15 +15,13 @@ inline double limit_mc(double low, double centre, double high) {
   return low > 0 ? magnitude : -magnitude;
 }
 
-/// Limited derivative of q along d: monotonized central differences (van Leer 1977) on widths that may vary; one ghost
-/// layer.
+/// Limited derivative of q along d in cell c with index i: monotonized central differences (van Leer 1977) on widths
+/// that may vary; one ghost layer.
 template <int Dim>
-double limited_slope(const Grid<Dim>& grid, const CellField& q, Cell c, int d) {
+double limited_slope(const Grid<Dim>& grid, const CellField& q, Cell c, const Index<Dim>& i, int d) {
   const Step e = grid.step(d);
-  const double w = grid.width(d, c);
-  const double w_low = grid.width(d, c - e);
-  const double w_high = grid.width(d, c + e);
-  const double centre = (q[c + e] - q[c - e]) / (w + 0.5 * (w_low + w_high));
+  const double w = grid.width_1d(d, i[d]);
+  const double centre = (q[c + e] - q[c - e]) / grid.spacing_around(d, i[d]);
   return limit_mc(2 * (q[c] - q[c - e]) / w, centre, 2 * (q[c + e] - q[c]) / w);
 }
 

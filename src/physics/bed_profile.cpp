@@ -102,7 +102,7 @@ BedProfile<Dim> bed_profile(const Domain<Dim>& domain, const CellField& phi) {
   for (int k = 1; k < n; ++k) profile.resolution = std::min(profile.resolution, grid.width_1d(up, k));
 
   const CellMask bed = grounded(grid, phi);
-  for_each_indexed<Cell>(grid.layout(), ground(grid), [&](Cell c, const Index<Dim>& i) {
+  for_each<Cell>(grid.layout(), ground(grid), [&](Cell c, const Index<Dim>& i) {
     const std::size_t column = column_number(grid, i);
     const auto cell = [&](int k) { return c + k * grid.step(up); };
     const auto fraction = [&](int k) { return phi[cell(k)]; };

@@ -29,7 +29,7 @@ std::vector<BubbleMeasures<Dim>> measure_bubbles(const Flow<Dim>& flow) {
         const Cell c = grid.cell(index);
         const double part = volume(c);
         whole += part;
-        length += part / grid.volume(c) * grid.width(0, c);
+        length += part / grid.volume(index) * grid.width_1d(0, index[0]);
         for (int d = 0; d < Dim; ++d) m.centroid[d] += part * grid.centre_position(d, index[d]);
       }
       m.width = std::max(m.width, length);

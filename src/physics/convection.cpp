@@ -23,14 +23,22 @@ class Reconstruction {
 
   bool ballistic(Cell c) const { return total_[c] < ballistic_fraction; }
   /// The velocity of an empty neighbour means nothing.
-  double velocity_slope(const CellField& q, Cell c, int d) const {
+  double velocity_slope(const CellField& q, Cell c, const Index<Dim>& i, int d) const {
     const Step e = grid_.step(d);
     const bool apart = total_[c - e] < empty_fraction || total_[c + e] < empty_fraction;
-    return ballistic(c) || apart ? 0 : limited_slope(grid_, q, c, d);
+    return ballistic(c) || apart ? 0 : limited_slope(grid_, q, c, i, d);
   }
   /// Half-time velocity component on the face of c along d; side +1 high, -1 low.
-  double face_velocity(const CellField& u_half, const CellField& u, Cell c, int d, int side) const {
-    return u_half[c] + 0.5 * side * grid_.width(d, c) * velocity_slope(u, c, d);
+  double face_velocity(const CellField& u_half, const CellField& u, Cell c, const Index<Dim>& i, int d,
+                       int side) const {
+    return u_half[c] + 0.5 * side * grid_.width_1d(d, i[d]) * velocity_slope(u, c, i, d);
+  }
+  /// The same from the cell below and the cell above a face, i being the index of the one above.
+  double from_low(const CellField& u_half, const CellField& u, Face f, const Index<Dim>& i, int d) const {
+    return face_velocity(u_half, u, high_cell(f) - grid_.step(d), shifted(i, d, -1), d, 1);
+  }
+  double from_high(const CellField& u_half, const CellField& u, Face f, const Index<Dim>& i, int d) const {
+    return face_velocity(u_half, u, high_cell(f), i, d, -1);
   }
 
  private:
@@ -74,11 +82,39 @@ void impose_inflow(const Domain<Dim>& domain, FaceScalars<Dim>& u_mac) {
   for (int d = 0; d < Dim; ++d) {
     for (int s = 0; s < 2; ++s) {
       if (domain.sides.at(d, s).kind != SideKind::inflow) continue;
-      for_each_indexed<Face>(
+      for_each<Face>(
           domain.layout(), intersect(domain.side_faces(d, s), grid.faces(d)),
           [&](Face f, const Index<Dim>& i) { u_mac[d][f] = domain.side_velocities.at(d, s, grid.centre(i))[d]; });
     }
   }
+}
+
+/// What each side of a face gives.
+struct TwoSided {
+  double up;    ///< velocity >= 0 at which the cell below gives its content upwards
+  double down;  ///< velocity <= 0 at which the cell above gives its content downwards
+};
+
+/// Splits the projected velocity of a face, two-sided at faces that are not inside D.
+template <int Dim>
+TwoSided split_velocity(const Domain<Dim>& domain, const ConvectionInput<Dim>& in,
+                        const Reconstruction<Dim>& reconstruction, const ConvectionWork<Dim>& work, double mac, Face f,
+                        const Index<Dim>& i, int d) {
+  const Cell high = high_cell(f);
+  const Cell low = high - domain.grid.step(d);
+  double up = mac;
+  double down = mac;
+  const bool given = on_inflow(domain, low, high);
+  // A gas-side cell gives with its own velocity; into liquid at least as fast as the liquid recedes.
+  if (!in.liquid[low] && !given) {
+    const double own = reconstruction.from_low(work.u_half[d], in.u[d], f, i, d);
+    up = in.liquid[high] ? std::max(mac, own) : own;
+  }
+  if (!in.liquid[high] && !given) {
+    const double own = reconstruction.from_high(work.u_half[d], in.u[d], f, i, d);
+    down = in.liquid[low] ? std::min(mac, own) : own;
+  }
+  return {std::max(up, 0.0), std::min(down, 0.0)};
 }
 
 /// Volume per time that the cells below and above a face give, per species.
@@ -93,25 +129,25 @@ struct VolumeFluxes {
 /// Volume fluxes of species i from either side: what region i fills of the swept slab, less what species 0 ... i-1 take
 /// of it. Where those were limited species i makes up for them, so that liquid stays full.
 template <int Dim>
-void store_volume_fluxes(const Domain<Dim>& domain, const ConvectionInput<Dim>& in,
-                         const FaceVelocities<Dim>& velocities, double dt, std::size_t i, VolumeFluxes<Dim>& flux) {
+void store_volume_fluxes(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, const FaceScalars<Dim>& u_mac,
+                         const ConvectionWork<Dim>& work, double dt, std::size_t i, VolumeFluxes<Dim>& flux) {
+  const Reconstruction<Dim> reconstruction(domain.grid, in.total);
   const std::size_t whole = in.phi.size() - 1;
-  const auto swept = [&](Cell c, int d, int side, double velocity) {
+  const auto swept = [&](Cell c, const Index<Dim>& at, int d, int side, double velocity) {
     const auto part = [&](std::size_t k) {
-      return swept_fraction(domain.grid, in.interfaces.surface[k], in.interfaces.region[k], in.u, c, d, side, velocity,
-                            dt);
+      return swept_fraction(domain.grid, in.interfaces[k], region_fraction(in.phi, k, c), in.u, c, at, d, side,
+                            velocity, dt);
     };
     return velocity * (i < whole ? std::min(part(i), part(whole)) : part(i));
   };
-  for (int d = 0; d < Dim; ++d) {
-    for_each<Face>(domain.layout(), domain.grid.faces(d), [&](Face f) {
+  for_each_axis<Dim>([&](auto d) {
+    for_each<Face>(domain.layout(), domain.grid.faces(d), [&](Face f, const Index<Dim>& at) {
       const Cell high = high_cell(f);
       const Cell low = high - domain.grid.step(d);
-      const double up = velocities.from_low[d][f];
-      const double down = velocities.from_high[d][f];
-      const double area = domain.aperture[d][f];
-      double from_low = up > 0 ? area * swept(low, d, 1, up) : 0.0;
-      double from_high = down < 0 ? area * swept(high, d, -1, down) : 0.0;
+      const auto [up, down] = split_velocity(domain, in, reconstruction, work, u_mac[d][f], f, at, d);
+      const double area = domain.aperture(d, at);
+      double from_low = up > 0 ? area * swept(low, shifted(at, d, -1), d, 1, up) : 0.0;
+      double from_high = down < 0 ? area * swept(high, at, d, -1, down) : 0.0;
       for (std::size_t j = 0; j < i; ++j) {
         from_low -= flux.low[j][d][f];
         from_high -= flux.high[j][d][f];
@@ -119,7 +155,7 @@ void store_volume_fluxes(const Domain<Dim>& domain, const ConvectionInput<Dim>& 
       flux.low[i][d][f] = std::max(from_low, 0.0);
       flux.high[i][d][f] = std::min(from_high, 0.0);
     });
-  }
+  });
 }
 
 /// Scales each cell's outflow of a species to at most what the cell holds.
@@ -128,10 +164,10 @@ void limit_outflow(const Domain<Dim>& domain, const CellField& phi, double dt, F
                    FaceScalars<Dim>& flux_high) {
   const Grid<Dim>& grid = domain.grid;
   CellField scale(domain.layout(), 1);
-  for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
+  for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
     double out = 0;
     for (int d = 0; d < Dim; ++d) out += flux_low[d][low_face(c + grid.step(d))] - flux_high[d][low_face(c)];
-    const double held = std::max(phi[c], 0.0) * grid.volume(c);
+    const double held = std::max(phi[c], 0.0) * grid.volume(i);
     scale[c] = out * dt > held ? held / (out * dt) : 1.0;
   });
   wrap(domain.layout(), grid.cells(), scale);
@@ -164,126 +200,99 @@ double outflow_through_sides(const Domain<Dim>& domain, const FaceScalars<Dim>& 
 
 template <int Dim>
 void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, double dt, ConvectionWork<Dim>& work,
-                        FaceVelocities<Dim>& velocities) {
+                        FaceScalars<Dim>& u_mac) {
   const Grid<Dim>& grid = domain.grid;
   const Reconstruction<Dim> reconstruction(grid, in.total);
   for (int e = 0; e < Dim; ++e) {
-    for_each<Cell>(domain.layout(), grow(grid.cells(), 1), [&](Cell c) {
+    for_each<Cell>(domain.layout(), grow(grid.cells(), 1), [&](Cell c, const Index<Dim>& i) {
       const double a = reconstruction.ballistic(c) ? 0 : in.acceleration[e][c];
-      work.u_half[e][c] = in.u[e][c] + 0.5 * dt * a +
-                          advect_half(in.u, c, dt, [&](int d) { return reconstruction.velocity_slope(in.u[e], c, d); });
+      work.u_half[e][c] = in.u[e][c] + 0.5 * dt * a + advect_half(in.u, c, dt, [&](int d) {
+                            return reconstruction.velocity_slope(in.u[e], c, i, d);
+                          });
     });
   }
-  for (int d = 0; d < Dim; ++d) {
-    for_each<Face>(domain.layout(), grid.faces(d), [&](Face f) {
+  for_each_axis<Dim>([&](auto d) {
+    for_each<Face>(domain.layout(), grid.faces(d), [&](Face f, const Index<Dim>& i) {
       const Cell high = high_cell(f);
       const Cell low = high - grid.step(d);
-      velocities.mac[d][f] =
-          domain.aperture[d][f] > 0
-              ? upwind(reconstruction.face_velocity(work.u_half[d], in.u[d], low, d, 1),
-                       reconstruction.face_velocity(work.u_half[d], in.u[d], high, d, -1), in.rho[low], in.rho[high],
-                       in.total[low] < empty_fraction, in.total[high] < empty_fraction)
-              : 0.0;
+      u_mac[d][f] = domain.passes(d, i)
+                        ? upwind(reconstruction.from_low(work.u_half[d], in.u[d], f, i, d),
+                                 reconstruction.from_high(work.u_half[d], in.u[d], f, i, d), in.rho[low], in.rho[high],
+                                 in.total[low] < empty_fraction, in.total[high] < empty_fraction)
+                        : 0.0;
     });
-  }
-  impose_inflow(domain, velocities.mac);
-}
-
-template <int Dim>
-void split_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, const ConvectionWork<Dim>& work,
-                      FaceVelocities<Dim>& velocities) {
-  const Grid<Dim>& grid = domain.grid;
-  const Reconstruction<Dim> reconstruction(grid, in.total);
-  velocities.from_low = velocities.from_high = FaceScalars<Dim>(domain.layout());
-  for (int d = 0; d < Dim; ++d) {
-    for_each<Face>(domain.layout(), grid.faces(d), [&](Face f) {
-      const Cell high = high_cell(f);
-      const Cell low = high - grid.step(d);
-      const double mac = velocities.mac[d][f];
-      double up = mac;
-      double down = mac;
-      const bool given = on_inflow(domain, low, high);
-      // A gas-side cell gives with its own velocity; into liquid at least as fast as the liquid recedes.
-      if (!in.liquid[low] && !given) {
-        const double own = reconstruction.face_velocity(work.u_half[d], in.u[d], low, d, 1);
-        up = in.liquid[high] ? std::max(mac, own) : own;
-      }
-      if (!in.liquid[high] && !given) {
-        const double own = reconstruction.face_velocity(work.u_half[d], in.u[d], high, d, -1);
-        down = in.liquid[low] ? std::min(mac, own) : own;
-      }
-      velocities.from_low[d][f] = std::max(up, 0.0);
-      velocities.from_high[d][f] = std::min(down, 0.0);
-    });
-  }
+  });
+  impose_inflow(domain, u_mac);
 }
 
 template <int Dim>
 void convect(const Domain<Dim>& domain, const std::vector<Species>& species, const ConvectionInput<Dim>& in, double dt,
-             const FaceVelocities<Dim>& velocities, const ConvectionWork<Dim>& work, Fractions& phi_tilde,
+             const FaceScalars<Dim>& u_mac, const ConvectionWork<Dim>& work, Fractions& phi_tilde,
              CellVectors<Dim>& momentum_tilde, std::vector<double>& escaped) {
   const Grid<Dim>& grid = domain.grid;
   VolumeFluxes<Dim> flux(domain.layout(), species.size());
   for (std::size_t i = 0; i < species.size(); ++i) {
-    store_volume_fluxes(domain, in, velocities, dt, i, flux);
+    store_volume_fluxes(domain, in, u_mac, work, dt, i, flux);
     FaceScalars<Dim>& low = flux.low[i];
     FaceScalars<Dim>& high = flux.high[i];
     limit_outflow(domain, in.phi[i], dt, low, high);
     escaped[i] += outflow_through_sides(domain, low, high, dt);
-    for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
+    for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& at) {
       double gain = 0;
       for (int d = 0; d < Dim; ++d) {
         const Face below = low_face(c);
         const Face above = low_face(c + grid.step(d));
         gain += low[d][below] + high[d][below] - low[d][above] - high[d][above];
       }
-      phi_tilde[i][c] = in.phi[i][c] + dt * gain / grid.volume(c);
+      phi_tilde[i][c] = in.phi[i][c] + dt * gain / grid.volume(at);
     });
   }
 
   // Momentum goes with the mass that crosses a face, at the velocity of the side that gives it.
   const Reconstruction<Dim> reconstruction(grid, in.total);
-  const auto mass_flux = [&](const std::vector<FaceScalars<Dim>>& volume, int d, Face f) {
-    double mass = 0;
-    for (std::size_t i = 0; i < species.size(); ++i) mass += species[i].density * volume[i][d][f];
-    return mass;
-  };
-  FaceField momentum_flux(domain.layout());
+  const Layout<Dim>& layout = domain.layout();
   for (int e = 0; e < Dim; ++e) {
-    const CellField& u = in.u[e];
-    const CellField& u_half = work.u_half[e];
-    for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) { momentum_tilde[e][c] = in.rho[c] * u[c]; });
-    for (int d = 0; d < Dim; ++d) {
-      for_each<Face>(domain.layout(), grid.faces(d), [&](Face f) {
-        const Cell high = high_cell(f);
-        const Cell low = high - grid.step(d);
-        momentum_flux[f] = mass_flux(flux.low, d, f) * reconstruction.face_velocity(u_half, u, low, d, 1) +
-                           mass_flux(flux.high, d, f) * reconstruction.face_velocity(u_half, u, high, d, -1);
-      });
-      for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
-        momentum_tilde[e][c] +=
-            dt * (momentum_flux[low_face(c)] - momentum_flux[low_face(c + grid.step(d))]) / grid.volume(c);
+    for_each<Cell>(layout, grid.cells(), [&](Cell c) { momentum_tilde[e][c] = in.rho[c] * in.u[e][c]; });
+  }
+  FaceField mass_low(layout), mass_high(layout), momentum_flux(layout);
+  for_each_axis<Dim>([&](auto d) {
+    mass_low.fill(0);
+    mass_high.fill(0);
+    for (std::size_t i = 0; i < species.size(); ++i) {
+      const double density = species[i].density;
+      for_each<Face>(layout, grid.faces(d), [&](Face f) {
+        mass_low[f] += density * flux.low[i][d][f];
+        mass_high[f] += density * flux.high[i][d][f];
       });
     }
-    for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
-      double mass = 0;
-      double full = 0;
-      for (std::size_t i = 0; i < species.size(); ++i) {
-        mass += species[i].density * phi_tilde[i][c];
-        full = std::max(full, species[i].density);
-      }
-      momentum_tilde[e][c] = mass > rounded_off * full ? momentum_tilde[e][c] : 0.0;
-    });
-  }
+    for (int e = 0; e < Dim; ++e) {
+      const CellField& u = in.u[e];
+      const CellField& u_half = work.u_half[e];
+      for_each<Face>(layout, grid.faces(d), [&](Face f, const Index<Dim>& i) {
+        momentum_flux[f] = mass_low[f] * reconstruction.from_low(u_half, u, f, i, d) +
+                           mass_high[f] * reconstruction.from_high(u_half, u, f, i, d);
+      });
+      for_each<Cell>(layout, grid.cells(), [&](Cell c, const Index<Dim>& i) {
+        const Face below = low_face(c);
+        const Face above = low_face(c + grid.step(d));
+        momentum_tilde[e][c] += dt * (momentum_flux[below] - momentum_flux[above]) / grid.volume(i);
+      });
+    }
+  });
+  double full = 0;
+  for (const Species& s : species) full = std::max(full, s.density);
+  for_each<Cell>(layout, grid.cells(), [&](Cell c) {
+    double mass = 0;
+    for (std::size_t i = 0; i < species.size(); ++i) mass += species[i].density * phi_tilde[i][c];
+    for (int e = 0; e < Dim; ++e) momentum_tilde[e][c] = mass > rounded_off * full ? momentum_tilde[e][c] : 0.0;
+  });
 }
 
 #define QUICKSAND_INSTANTIATE(Dim)                                                                                \
   template void predict_velocities(const Domain<Dim>&, const ConvectionInput<Dim>&, double, ConvectionWork<Dim>&, \
-                                   FaceVelocities<Dim>&);                                                         \
-  template void split_velocities(const Domain<Dim>&, const ConvectionInput<Dim>&, const ConvectionWork<Dim>&,     \
-                                 FaceVelocities<Dim>&);                                                           \
+                                   FaceScalars<Dim>&);                                                            \
   template void convect(const Domain<Dim>&, const std::vector<Species>&, const ConvectionInput<Dim>&, double,     \
-                        const FaceVelocities<Dim>&, const ConvectionWork<Dim>&, Fractions&, CellVectors<Dim>&,    \
+                        const FaceScalars<Dim>&, const ConvectionWork<Dim>&, Fractions&, CellVectors<Dim>&,       \
                         std::vector<double>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)

@@ -26,16 +26,6 @@ struct ConvectionInput {
   const Interfaces<Dim>& interfaces;     ///< planes of phi
 };
 
-/// Velocities at the faces: `mac` for the projection, and what crosses a face from either side after that.
-template <int Dim>
-struct FaceVelocities {
-  FaceScalars<Dim> mac;        ///< normal velocity, divergence-free in D after the MAC projection
-  FaceScalars<Dim> from_low;   ///< velocity >= 0 at which the cell below the face gives its content upwards
-  FaceScalars<Dim> from_high;  ///< velocity <= 0 at which the cell above the face gives its content downwards
-
-  explicit FaceVelocities(const Layout<Dim>& layout) : mac(layout) {}
-};
-
 /// Work arrays of the convection phase.
 template <int Dim>
 struct ConvectionWork {
@@ -44,22 +34,17 @@ struct ConvectionWork {
   explicit ConvectionWork(const Layout<Dim>& layout) : u_half(layout) {}
 };
 
-/// Normal face velocities at half time from both sides, upwinded into velocities.mac; also the half-time cell
-/// velocities.
+/// Normal face velocities at half time from both sides, upwinded into u_mac; also the half-time cell velocities.
 template <int Dim>
 void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, double dt, ConvectionWork<Dim>& work,
-                        FaceVelocities<Dim>& velocities);
+                        FaceScalars<Dim>& u_mac);
 
-/// Splits the projected face velocities into what each side gives (two-sided at faces that are not inside D).
-template <int Dim>
-void split_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, const ConvectionWork<Dim>& work,
-                      FaceVelocities<Dim>& velocities);
-
-/// phi~ (44b) and rho~ u~ (44a) from the split velocities. Outflow is scaled so that phi~ >= 0.
-/// Volume that leaves through open sides is added to `escaped`, per species.
+/// phi~ (44b) and rho~ u~ (44a). Outflow is scaled so that phi~ >= 0.
+/// \param u_mac    normal face velocities, divergence-free in D
+/// \param escaped  volume that leaves through open sides is added, per species
 template <int Dim>
 void convect(const Domain<Dim>& domain, const std::vector<Species>& species, const ConvectionInput<Dim>& in, double dt,
-             const FaceVelocities<Dim>& velocities, const ConvectionWork<Dim>& work, Fractions& phi_tilde,
+             const FaceScalars<Dim>& u_mac, const ConvectionWork<Dim>& work, Fractions& phi_tilde,
              CellVectors<Dim>& momentum_tilde, std::vector<double>& escaped);
 
 }  // namespace quicksand

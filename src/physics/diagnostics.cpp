@@ -64,7 +64,8 @@ double potential_energy(const Flow<Dim>& flow) {
       Box<Dim> slab = grid.cells();
       slab.lo[d] = i;
       slab.hi[d] = i + 1;
-      const double mass = sum<Cell>(grid.layout(), slab, [&](Cell c) { return flow.density()[c] * grid.volume(c); });
+      const double mass = sum<Cell>(grid.layout(), slab,
+                                    [&](Cell c, const Index<Dim>& at) { return flow.density()[c] * grid.volume(at); });
       energy -= mass * g * grid.centre_position(d, i);
     }
   }
@@ -90,7 +91,7 @@ double highest_liquid(const Flow<Dim>& flow) {
 
 template <int Dim>
 double species_volume(const Grid<Dim>& grid, const CellField& phi) {
-  return sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return phi[c] * grid.volume(c); });
+  return sum<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) { return phi[c] * grid.volume(i); });
 }
 
 template <int Dim>

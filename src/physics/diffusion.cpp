@@ -44,8 +44,8 @@ template <int Dim>
 void mark_participants(const Domain<Dim>& domain, const CellField& rho, DiffusionWork<Dim>& work) {
   const Grid<Dim>& grid = domain.grid;
   for (int e = 0; e < Dim; ++e) {
-    for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
-      work.mass[e][c] = touching(work.elements.active, domain.layout(), c) > 0 ? rho[c] * grid.volume(c) : 0.0;
+    for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+      work.mass[e][c] = touching(work.elements.active, domain.layout(), c) > 0 ? rho[c] * grid.volume(i) : 0.0;
     });
     for (int d = 0; d < Dim; ++d) {
       if (d == e) continue;

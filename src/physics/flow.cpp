@@ -67,27 +67,28 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       total_(domain_.layout()),
       rho_(domain_.layout()),
       liquid_(domain_.layout()),
-      next_total_(domain_.layout()),
-      next_rho_(domain_.layout()),
-      next_liquid_(domain_.layout()),
-      interfaces_(domain_.layout(), parameters_.species.size()),
       elements_(domain_.layout()),
       u_hat_(domain_.layout()),
-      mac_(domain_.layout()),
+      mac_potential_(domain_.layout()),
       redistribution_(domain_, parameters_.species),
       diffusion_(domain_, parameters_.species),
-      gas_labels_(domain_.layout()),
       outer_pressure_(domain_.layout(), parameters_.ambient_pressure) {
   state_.pressure.fill(parameters_.ambient_pressure);
 }
 
 template <int Dim>
+void Flow<Dim>::find_mixture(State<Dim>& state) {
+  const Grid<Dim>& grid = domain_.grid;
+  for (std::size_t i = 0; i < state.phi.size(); ++i) fill_fraction_ghosts(grid, domain_.sides, i, state.phi[i]);
+  sum_fractions(grid, state.phi, total_);
+  mix_density(grid, parameters_.species, state.phi, rho_);
+  mark_liquid(grid, total_, parameters_.liquid_threshold, liquid_);
+}
+
+template <int Dim>
 void Flow<Dim>::refresh() {
   const Grid<Dim>& grid = domain_.grid;
-  for (std::size_t i = 0; i < state_.phi.size(); ++i) fill_fraction_ghosts(grid, domain_.sides, i, state_.phi[i]);
-  sum_fractions(grid, state_.phi, total_);
-  mix_density(grid, parameters_.species, state_.phi, rho_);
-  mark_liquid(grid, total_, parameters_.liquid_threshold, liquid_);
+  find_mixture(state_);
   hold_open(grid, state_.gas, liquid_);
   clear_without_mass(grid, rho_, state_.u);
   fill_velocity_ghosts(domain_, state_.u);
@@ -95,12 +96,11 @@ void Flow<Dim>::refresh() {
 }
 
 template <int Dim>
-void Flow<Dim>::find_elements(const State<Dim>& state, const CellField& total, Interfaces<Dim>& interfaces,
-                              PressureElements<Dim>& elements) {
-  reconstruct_interfaces(domain_.grid, state.phi, interfaces);
-  mark_bearing_cells(domain_.grid, total, elements.bears);
-  hold_open(domain_.grid, state.gas, elements.bears);
-  find_pressure_elements(domain_, parameters_.species, total, interfaces, elements);
+void Flow<Dim>::find_elements(const State<Dim>& state) {
+  reconstruct_interfaces(domain_.grid, state.phi, interfaces_);
+  mark_bearing_cells(domain_.grid, total_, elements_.bears);
+  hold_open(domain_.grid, state.gas, elements_.bears);
+  find_pressure_elements(domain_, parameters_.species, state.phi, total_, interfaces_, elements_);
 }
 
 template <int Dim>
@@ -112,7 +112,7 @@ void Flow<Dim>::initialize() {
   }
   gas_pressure_on_nodes(domain_, gas_parameters(), state_.gas, liquid_, false, outer_pressure_);
   set_open_pressures(domain_, outer_pressure_);
-  find_elements(state_, total_, interfaces_, elements_);
+  find_elements(state_);
   // The pressure that balances gravity as the velocities stand: what is at rest stays so from the first step on.
   const Grid<Dim>& grid = domain_.grid;
   const CellVectors<Dim> none(domain_.layout());
@@ -136,7 +136,7 @@ void Flow<Dim>::resume(std::vector<double> escaped) {
   if (has_bubbles(gas_parameters(), state_.gas)) {
     label_gas(domain_, total_, parameters_.liquid_threshold, state_.gas.region, gas_labels_);
   }
-  find_elements(state_, total_, interfaces_, elements_);
+  find_elements(state_);
   volume_ = volumes(domain_.grid, state_.phi, escaped_);
   energy_scale_ = energy_at_stake(domain_.grid, rho_, state_, parameters_.gravity);
 }
@@ -173,12 +173,14 @@ void Flow<Dim>::leave_failed_step(double dt) {
   attempt_failed_ = true;
   // First guesses of a failed step may be what made it fail, or not finite.
   for (CellField& H_i : redistribution_.H_species) H_i.fill(0);
-  mac_.potential.fill(0);
+  mac_potential_.fill(0);
   diffusion_.stress.fill({});
   diffusion_.multiplier = multiplier_before_;
   diffusion_.penalty = penalty_before_;
+  redistribution_.release();
   diffusion_.release();
-  find_elements(state_, total_, interfaces_, elements_);
+  refresh();
+  find_elements(state_);
   if (has_bubbles(gas_parameters(), state_.gas)) {
     label_gas(domain_, total_, parameters_.liquid_threshold, state_.gas.region, gas_labels_);
   }
@@ -189,18 +191,18 @@ void Flow<Dim>::project(double dt, StepReport& report) {
   const Grid<Dim>& grid = domain_.grid;
   CellVectors<Dim>& u_bar_star = u_hat_;
   u_bar_star = next_.u;
-  const double before = kinetic_energy(grid, next_rho_, u_bar_star);
+  const double before = kinetic_energy(grid, rho_, u_bar_star);
   ProjectionWork<Dim> work(domain_.layout());
   const auto solve = [&](double memory) {
     next_.pressure = state_.pressure;
-    SolveReport solved = solve_pressure(domain_, Projected::velocity, memory, u_bar_star, next_rho_, elements_,
+    SolveReport solved = solve_pressure(domain_, Projected::velocity, memory, u_bar_star, rho_, elements_,
                                         outer_pressure_, dt, parameters_.linear, work, next_.pressure);
     solved.iterations += report.projection.iterations;
     report.projection = solved;
-    report.gas_work = gas_work(domain_, u_bar_star, next_rho_, elements_, dt, work);
+    report.gas_work = gas_work(domain_, u_bar_star, rho_, elements_, dt, work);
     next_.u = u_bar_star;
-    add_pressure_gradient(domain_, next_.pressure, next_rho_, elements_, -dt, next_.u);
-    report.projection_energy_change = kinetic_energy(grid, next_rho_, next_.u) - before;
+    add_pressure_gradient(domain_, next_.pressure, rho_, elements_, -dt, next_.u);
+    report.projection_energy_change = kinetic_energy(grid, rho_, next_.u) - before;
   };
   // What a yield stress holds is to stay at rest; where that costs energy the pressure is found without memory.
   if (diffusion_.has_yield_stress()) {
@@ -233,10 +235,10 @@ StepReport Flow<Dim>::step(double dt) {
   CellVectors<Dim>& momentum_tilde = next_.u;
   CellVectors<Dim>& u_bar = next_.acceleration;
   Stopwatch watch;
-  const auto clock = [&](Phase phase, FaceVelocities<Dim>* velocities = nullptr) {
+  const auto clock = [&](Phase phase, FaceScalars<Dim>* u_mac = nullptr) {
     report.seconds[static_cast<std::size_t>(phase)] += watch.lap();
     ++parts_done_;
-    if (watcher_) watcher_({parts_done_, velocities, momentum_tilde, u_bar, next_});
+    if (watcher_) watcher_({parts_done_, u_mac, momentum_tilde, u_bar, next_});
   };
   std::vector<double> escaped = escaped_;
   parts_done_ = 0;
@@ -248,48 +250,50 @@ StepReport Flow<Dim>::step(double dt) {
   {
     const ConvectionInput<Dim> in{state_.phi, total_, rho_, state_.u, state_.acceleration, liquid_, interfaces_};
     ConvectionWork<Dim> work(domain_.layout());
-    FaceVelocities<Dim> velocities(domain_.layout());
-    predict_velocities(domain_, in, dt, work, velocities);
-    clock(Phase::convection, &velocities);
-    find_voids(domain_, total_, liquid_, dt, mac_.inflow);
-    report.mac = project_face_velocities(domain_, rho_, liquid_, mac_.inflow, par.linear, mac_, velocities.mac);
-    clock(Phase::mac_projection, &velocities);
-    require_finite(grid, velocities.mac);
-    split_velocities(domain_, in, work, velocities);
-    convect(domain_, par.species, in, dt, velocities, work, next_.phi, momentum_tilde, escaped);
+    FaceScalars<Dim> u_mac(domain_.layout());
+    predict_velocities(domain_, in, dt, work, u_mac);
+    clock(Phase::convection, &u_mac);
+    {
+      CellField inflow(domain_.layout());
+      find_voids(domain_, total_, liquid_, dt, inflow);
+      report.mac = project_face_velocities(domain_, rho_, liquid_, inflow, par.linear, mac_potential_, u_mac);
+    }
+    clock(Phase::mac_projection, &u_mac);
+    require_finite(grid, u_mac);
+    convect(domain_, par.species, in, dt, u_mac, work, next_.phi, momentum_tilde, escaped);
   }
-  mix_density(grid, par.species, next_.phi, next_rho_);
-  const double energy_tilde = kinetic_energy_of_momentum(grid, next_rho_, momentum_tilde);
+  mix_density(grid, par.species, next_.phi, rho_);
+  const double energy_tilde = kinetic_energy_of_momentum(grid, rho_, momentum_tilde);
   clock(Phase::convection);
 
   report.obstacle = redistribute_volume(domain_, par.species, par.obstacle, redistribution_, next_.phi, escaped);
-  for (std::size_t i = 0; i < next_.phi.size(); ++i) fill_fraction_ghosts(grid, domain_.sides, i, next_.phi[i]);
-  sum_fractions(grid, next_.phi, next_total_);
-  mix_density(grid, par.species, next_.phi, next_rho_);
-  mark_liquid(grid, next_total_, par.liquid_threshold, next_liquid_);
   if (has_bubbles(gas_parameters(), state_.gas)) {
-    report.gas = advance_gas(domain_, gas_parameters(), state_.gas, total_, next_total_, dt, gas_labels_, next_.gas);
-    hold_open(grid, next_.gas, next_liquid_);
+    const CellField total_before = total_;
+    find_mixture(next_);
+    report.gas = advance_gas(domain_, gas_parameters(), state_.gas, total_before, total_, dt, gas_labels_, next_.gas);
+    hold_open(grid, next_.gas, liquid_);
   } else {
+    find_mixture(next_);
     next_.gas.end(state_.gas.last_id);
   }
-  gas_pressure_on_nodes(domain_, gas_parameters(), next_.gas, next_liquid_, true, outer_pressure_);
+  gas_pressure_on_nodes(domain_, gas_parameters(), next_.gas, liquid_, true, outer_pressure_);
   set_open_pressures(domain_, outer_pressure_);
-  find_elements(next_, next_total_, interfaces_, elements_);
+  find_elements(next_);
   clock(Phase::redistribute_volume);
-  report.momentum = redistribute_momentum(domain_, momentum_tilde, next_rho_, par.momentum, redistribution_, u_bar);
+  report.momentum = redistribute_momentum(domain_, momentum_tilde, rho_, par.momentum, redistribution_, u_bar);
+  redistribution_.release();
   clock(Phase::redistribute_momentum);
-  report.redistribution_energy_change = kinetic_energy(grid, next_rho_, u_bar) - energy_tilde;
+  report.redistribution_energy_change = kinetic_energy(grid, rho_, u_bar) - energy_tilde;
 
   next_.pressure = state_.pressure;
   add_uniform(grid.layout(), grid.cells(), u_bar, dt, par.gravity, u_hat_);
   add_scaled(grid.layout(), grid.cells(), u_hat_, dt, lagged, u_hat_);
   CellVectors<Dim>& u_star = next_.u;
   u_star = u_hat_;
-  if (mark_stress_elements(domain_, par.species, next_.phi, next_total_, diffusion_.elements)) {
+  if (mark_stress_elements(domain_, par.species, next_.phi, total_, diffusion_.elements)) {
     // The stress of the last step is the best guess of this one's.
     add_scaled(grid.layout(), grid.cells(), u_bar, dt, state_.acceleration, u_star);
-    report.diffusion = diffuse(domain_, next_rho_, u_hat_, dt, par.diffusion, diffusion_, u_star);
+    report.diffusion = diffuse(domain_, rho_, u_hat_, dt, par.diffusion, diffusion_, u_star);
     if (!report.diffusion.converged) throw NumericalError("viscoplastic diffusion did not converge");
   }
   diffusion_.release();
@@ -300,16 +304,16 @@ StepReport Flow<Dim>::step(double dt) {
   project(dt, report);
   clock(Phase::projection);
   scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, u_bar, next_.acceleration);
-  const double energy = kinetic_energy(grid, next_rho_, next_.u);
+  const double energy = kinetic_energy(grid, rho_, next_.u);
   report.momentum_norm = std::sqrt(2 * energy);
   scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, state_.u, u_hat_);
-  report.momentum_change = std::sqrt(2 * kinetic_energy(grid, next_rho_, u_hat_));
+  report.momentum_change = std::sqrt(2 * kinetic_energy(grid, rho_, u_hat_));
 
   require_finite(grid, next_);
   const double largest_energy = std::max({energy_scale_, energy_tilde, energy});
-  report.energy_scale = std::max(largest_energy, negligible_energy(grid, next_rho_, dt));
+  report.energy_scale = std::max(largest_energy, negligible_energy(grid, rho_, dt));
   report.liquid_volume =
-      sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return next_total_[c] * grid.volume(c); });
+      sum<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) { return total_[c] * grid.volume(i); });
   const StepBalance balance{volume_,
                             volumes(grid, next_.phi, escaped),
                             report.liquid_volume,

@@ -60,10 +60,10 @@ struct StepReport {
 template <int Dim>
 struct StepInProgress {
   int part;  ///< of the step that has ended, from 1: phase by phase, convection being in two with one between
-  FaceVelocities<Dim>* face_velocities;  ///< mac only; null once convection is done
-  CellVectors<Dim>& momentum_tilde;      ///< after parts 3 and 4; lies where next.u is from part 6 on
-  CellVectors<Dim>& u_bar;               ///< after parts 5 to 7; lies in next.acceleration
-  State<Dim>& next;                      ///< fractions from part 3 on, velocities from part 6 on
+  FaceScalars<Dim>* u_mac;           ///< normal velocities on faces; null once convection is done
+  CellVectors<Dim>& momentum_tilde;  ///< after parts 3 and 4; lies where next.u is from part 6 on
+  CellVectors<Dim>& u_bar;           ///< after parts 5 to 7; lies in next.acceleration
+  State<Dim>& next;                  ///< fractions from part 3 on, velocities from part 6 on
 };
 
 /// Called at the end of every phase, twice for convection, which goes on after the MAC projection.
@@ -85,7 +85,8 @@ class Flow {
   const std::vector<double>& escaped() const { return escaped_; }
   /// Volume of each species in the domain, plus what has escaped: conserved.
   const std::vector<double>& volume() const { return volume_; }
-  /// Fields that follow from the current state's fractions, valid after initialize() or advance().
+  /// Fields that follow from the current state's fractions, valid after initialize() or advance(); in a step from the
+  /// new ones, once these are there.
   const CellField& total() const { return total_; }
   const CellField& density() const { return rho_; }
   const CellMask& liquid() const { return liquid_; }
@@ -129,9 +130,10 @@ class Flow {
  private:
   /// Ghost cells, total(), density() and liquid() of the current state.
   void refresh();
-  /// Where pressure acts for a state's fractions and gas, ghost cells filled.
-  void find_elements(const State<Dim>& state, const CellField& total, Interfaces<Dim>& interfaces,
-                     PressureElements<Dim>& elements);
+  /// total(), density() and liquid() of a state's fractions and gas, ghost cells of the fractions included.
+  void find_mixture(State<Dim>& state);
+  /// Where pressure acts for a state's fractions and gas, whose total() it is.
+  void find_elements(const State<Dim>& state);
   /// (51), (50): the pressure of the new state, and its velocity from (52) in place.
   void project(double dt, StepReport& report);
   /// The step itself: writes next_, then makes it the state.
@@ -147,12 +149,10 @@ class Flow {
   double energy_scale_ = 0;  ///< the largest energy so far
   CellField total_, rho_;
   CellMask liquid_;
-  CellField next_total_, next_rho_;
-  CellMask next_liquid_;
   Interfaces<Dim> interfaces_;
   PressureElements<Dim> elements_;
   CellVectors<Dim> u_hat_;
-  MacProjectionWork<Dim> mac_;
+  CellField mac_potential_;  ///< of the MAC projection, its next first guess
   RedistributionWork<Dim> redistribution_;
   DiffusionWork<Dim> diffusion_;
   GasLabels gas_labels_;

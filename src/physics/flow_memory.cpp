@@ -57,7 +57,7 @@ void Flow<Dim>::exchange(Archive& archive) {
   carry(archive, state_.gas);
   carry_numbers(archive, "flow/escaped", escaped_);
   // Where the solves of a step start from.
-  carry(archive, "guess/mac_potential", mac_.potential);
+  carry(archive, "guess/mac_potential", mac_potential_);
   carry(archive, "guess/redistribution", redistribution_.H_species);
   carry(archive, "guess/plastic_stress", diffusion_.stress);
   carry(archive, "guess/multiplier", diffusion_.multiplier);

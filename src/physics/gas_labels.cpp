@@ -28,8 +28,7 @@ void for_neighbours(const Domain<Dim>& domain, Cell c, Body&& body) {
     for (const int shift : {-1, 1}) {
       const int there = layout.image(d, index[d] + shift);
       if (there < 0 || there >= domain.grid.owned_cells()[d]) continue;
-      const Face between = low_face(shift < 0 ? c : c + e);
-      if (domain.aperture[d][between] > 0) body(c + (there - index[d]) * e);
+      if (domain.passes(d, shift < 0 ? index : shifted(index, d, 1))) body(c + (there - index[d]) * e);
     }
   }
 }
@@ -159,6 +158,7 @@ void share_out(const Domain<Dim>& domain, const CellField& total, GasLabels& lab
 template <int Dim>
 void label_gas(const Domain<Dim>& domain, const CellField& total, double threshold, const CellLabels& previous,
                GasLabels& labels) {
+  if (labels.component.size() == 0) labels = GasLabels(domain.layout());
   labels.components.clear();
   flood(domain, total, threshold, previous, labels);
   share_out(domain, total, labels);

@@ -26,6 +26,8 @@ struct GasLabels {
   std::vector<GasComponent> components;
 
   static constexpr int no_component = -1;
+  /// Without fields, until label_gas() is called.
+  GasLabels() = default;
   template <int Dim>
   explicit GasLabels(const Layout<Dim>& layout)
       : component(layout, no_component), owner(layout, no_component), parent(layout) {}

@@ -19,26 +19,18 @@ template <int Dim>
 void find_voids(const Domain<Dim>& domain, const CellField& total, const CellMask& liquid, double dt,
                 CellField& inflow);
 
-/// The potential of the last step, the next one's first guess, and what voids ask for.
-template <int Dim>
-struct MacProjectionWork {
-  CellField inflow;  ///< find_voids()
-  CellField potential;
-
-  explicit MacProjectionWork(const Layout<Dim>& layout) : inflow(layout), potential(layout) {}
-};
-
 /// Solves div(1/rho grad q) = div u_mac + inflow / V in D with q = 0 on the border of D, and corrects u_mac on the
 /// faces of D.
 ///
 /// q is half a time step times a pressure. The coefficient at a face is 1/(rho_L h_L + rho_R h_R) with half widths h;
 /// between D and gas only the liquid side counts, so that q = 0 sits on the face.
-/// \param inflow  volume per time that is to stay in a cell, owned cells
-/// \param u_mac   normal velocities on the faces of owned cells, zero on closed sides
+/// \param inflow     find_voids(): volume per time that is to stay in a cell, owned cells
+/// \param potential  q of the last step (first guess) on entry, of this one on return
+/// \param u_mac      normal velocities on the faces of owned cells, zero on closed sides
 /// \throws NumericalError when the solve does not converge
 template <int Dim>
 SolveReport project_face_velocities(const Domain<Dim>& domain, const CellField& rho, const CellMask& liquid,
-                                    const CellField& inflow, const SolveOptions& options, MacProjectionWork<Dim>& work,
+                                    const CellField& inflow, const SolveOptions& options, CellField& potential,
                                     FaceScalars<Dim>& u_mac);
 
 }  // namespace quicksand

@@ -37,72 +37,109 @@ Interval filled_part(const CellPlane<Dim>& plane, int k, int d) {
   return part;
 }
 
-/// Adds what a cell holds on its edge along d that begins at corner k. The moment of the part up to t is
-/// integral of W, the integral from 0 of the axis' normalised weight w_0 + (2 - 2 w_0) s; w_0 = 1 but for the radius.
+/// Finds what is on edges.
 template <int Dim>
-void add_edge(const Interfaces<Dim>& interfaces, const std::vector<Species>& species, double w_0, Cell c, int k, int d,
-              EdgeMass& edge) {
-  const auto integral = [&](double t) { return t * t * (w_0 / 2 + (1 - w_0) * t / 3); };
-  EdgeMass before;
-  for (std::size_t s = 0; s < species.size(); ++s) {
-    EdgeMass region;
-    if (interfaces.surface[s].cuts(c)) {
-      const Interval part = filled_part(interfaces.surface[s].plane(c), k, d);
-      region = {part.high - part.low, integral(part.high) - integral(part.low)};
-    } else {
-      const double filling = std::clamp(interfaces.region[s][c], 0.0, 1.0);
-      region = {filling, filling * integral(1)};
+class Edges {
+ public:
+  Edges(const Domain<Dim>& domain, const std::vector<Species>& species, const Fractions& phi,
+        const Interfaces<Dim>& interfaces)
+      : grid_(domain.grid), corners_(domain.layout()), species_(species), phi_(phi), interfaces_(interfaces) {
+    for (const Species& s : species) negligible_ = std::min(negligible_, negligible_filling * s.density);
+  }
+
+  /// Whether a cell around the edge along d that begins at a node is cut by a plane.
+  bool at_cut(const CellMask& cut, Node n, int d) const {
+    bool any = false;
+    for_each_cell(n, d, [&](Cell c, int) { any = any || cut[c]; });
+    return any;
+  }
+  /// Lever of the edge along d that begins at the node with index i; `even` where it holds next to nothing.
+  double lever(Node n, int d, double even) const {
+    EdgeMass edge;
+    for_each_cell(n, d, [&](Cell c, int k) { add(6 * even - 2, c, k, d, edge); });
+    return edge.mass > negligible_ ? std::clamp(edge.moment / edge.mass, 0.0, 1.0) : even;
+  }
+
+ private:
+  /// Cells around the edge along d that begins at a node are those at the node less corners.step[k], for the k without
+  /// bit d; seen from such a cell the edge begins at its corner k.
+  template <class Body>
+  void for_each_cell(Node n, int d, Body&& body) const {
+    for (int k = 0; k < Corners<Dim>::count; ++k) {
+      if (Corners<Dim>::bit(k, d) == 0) body(high_cell(n) - corners_.step[k], k);
     }
-    // Where planes of nested regions cross, the inner one has the say.
-    edge.mass += species[s].density * std::max(region.mass - before.mass, 0.0);
-    edge.moment += species[s].density * std::max(region.moment - before.moment, 0.0);
-    before = {std::max(region.mass, before.mass), std::max(region.moment, before.moment)};
   }
-}
+  /// Adds what a cell holds on its edge along d that begins at corner k. The moment of the part up to t is
+  /// integral of W, the integral from 0 of the axis' normalised weight w_0 + (2 - 2 w_0) s; w_0 = 1 but for the radius.
+  void add(double w_0, Cell c, int k, int d, EdgeMass& edge) const {
+    const auto integral = [&](double t) { return t * t * (w_0 / 2 + (1 - w_0) * t / 3); };
+    EdgeMass before;
+    for (std::size_t s = 0; s < species_.size(); ++s) {
+      EdgeMass region;
+      if (interfaces_[s].has(c)) {
+        const Interval part = filled_part(interfaces_[s][c], k, d);
+        region = {part.high - part.low, integral(part.high) - integral(part.low)};
+      } else {
+        const double filling = std::clamp(region_fraction(phi_, s, c), 0.0, 1.0);
+        region = {filling, filling * integral(1)};
+      }
+      // Where planes of nested regions cross, the inner one has the say.
+      edge.mass += species_[s].density * std::max(region.mass - before.mass, 0.0);
+      edge.moment += species_[s].density * std::max(region.moment - before.moment, 0.0);
+      before = {std::max(region.mass, before.mass), std::max(region.moment, before.moment)};
+    }
+  }
 
-/// Cells around the edge along d that begins at a node are those at the node less corners.step[k], for the k without
-/// bit d; seen from such a cell the edge begins at its corner k.
-template <int Dim, class Body>
-void for_each_cell_at_edge(const Corners<Dim>& corners, Node n, int d, Body&& body) {
-  for (int k = 0; k < Corners<Dim>::count; ++k) {
-    if (Corners<Dim>::bit(k, d) == 0) body(high_cell(n) - corners.step[k], k);
-  }
+  const Grid<Dim>& grid_;
+  Corners<Dim> corners_;
+  const std::vector<Species>& species_;
+  const Fractions& phi_;
+  const Interfaces<Dim>& interfaces_;
+  double negligible_ = std::numeric_limits<double>::infinity();
+};
+
+/// Weight of the low node of an even edge along d.
+template <int Dim>
+double even_lever(const Grid<Dim>& grid, const Index<Dim>& i, int d) {
+  return grid.line_element(d, i[d]).fraction[0];
 }
 
 template <int Dim>
-void find_levers(const Domain<Dim>& domain, const std::vector<Species>& species, const Interfaces<Dim>& interfaces,
-                 PressureElements<Dim>& elements) {
+void find_levers(const Domain<Dim>& domain, const std::vector<Species>& species, const Fractions& phi,
+                 const Interfaces<Dim>& interfaces, PressureElements<Dim>& elements) {
   const Grid<Dim>& grid = domain.grid;
-  const Corners<Dim> corners(domain.layout());
-  for_each<Cell>(domain.layout(), grow(grid.cells(), 1), [&](Cell c) {
+  const Layout<Dim>& layout = domain.layout();
+  const Edges<Dim> edges(domain, species, phi, interfaces);
+  const Corners<Dim> corners(layout);
+  for_each<Cell>(layout, grow(grid.cells(), 1), [&](Cell c) {
     bool cut = false;
-    for (const Surface<Dim>& surface : interfaces.surface) cut = cut || surface.cuts(c);
+    for (const Surface<Dim>& surface : interfaces) cut = cut || surface.has(c);
     elements.cut[c] = cut ? 1 : 0;
   });
-  double negligible = std::numeric_limits<double>::infinity();
-  for (const Species& s : species) negligible = std::min(negligible, negligible_filling * s.density);
-  for (int d = 0; d < Dim; ++d) {
-    Box<Dim> edges = grid.nodes();
-    edges.hi[d] = grid.owned_cells()[d];
-    for_each_indexed<Node>(domain.layout(), edges, [&](Node n, const Index<Dim>& i) {
-      const double even = grid.line_element(d, i[d]).fraction[0];
-      elements.lever[d][n] = even;
-      bool cut = false;
-      for_each_cell_at_edge(corners, n, d, [&](Cell c, int) { cut = cut || elements.cut[c]; });
-      if (!cut) return;
-      EdgeMass edge;
-      for_each_cell_at_edge(corners, n, d,
-                            [&](Cell c, int k) { add_edge(interfaces, species, 6 * even - 2, c, k, d, edge); });
-      if (edge.mass > negligible) elements.lever[d][n] = std::clamp(edge.moment / edge.mass, 0.0, 1.0);
-    });
-    wrap(domain.layout(), edges, elements.lever[d]);
-  }
-  for_each_indexed<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+  // An edge along d begins at every node but those on the high side.
+  const auto begins = [&](const Index<Dim>& i, int d) { return i[d] < grid.owned_cells()[d]; };
+  const auto candidate = [&](Node n, const Index<Dim>& i) {
+    bool any = false;
+    for (int d = 0; d < Dim; ++d) any = any || (begins(i, d) && edges.at_cut(elements.cut, n, d));
+    return any;
+  };
+  elements.lever.find(layout, grid.nodes(), candidate, [&](Node n, const Index<Dim>& i, Vec<Dim>& lever) {
     bool cut = false;
     for (int d = 0; d < Dim; ++d) {
-      const double even = grid.line_element(d, i[d]).fraction[0];
-      for (int k = 0; k < Corners<Dim>::count; ++k) {
-        if (Corners<Dim>::bit(k, d) == 0) cut = cut || elements.lever[d][low_node(c) + corners.step[k]] != even;
+      const double even = even_lever(grid, i, d);
+      lever[d] = begins(i, d) && edges.at_cut(elements.cut, n, d) ? edges.lever(n, d, even) : even;
+      cut = cut || lever[d] != even;
+    }
+    return cut;
+  });
+  elements.lever.wrap(layout, grid.nodes());
+  for_each<Cell>(layout, grid.cells(), [&](Cell c, const Index<Dim>& i) {
+    bool cut = false;
+    for (int k = 0; k < Corners<Dim>::count; ++k) {
+      const Node n = low_node(c) + corners.step[k];
+      if (!elements.lever.has(n)) continue;
+      for (int d = 0; d < Dim; ++d) {
+        if (Corners<Dim>::bit(k, d) == 0) cut = cut || elements.lever[n][d] != even_lever(grid, i, d);
       }
     }
     elements.cut[c] = cut ? 1 : 0;
@@ -112,12 +149,14 @@ void find_levers(const Domain<Dim>& domain, const std::vector<Species>& species,
 /// Mean over a cell's face normal to d of the shape function of corner k: product of the levers along the edges that
 /// meet in k.
 template <int Dim>
-double face_share(const PressureElements<Dim>& elements, const Corners<Dim>& corners, Node origin, int k, int d) {
+double face_share(const PressureElements<Dim>& elements, const Grid<Dim>& grid, const Corners<Dim>& corners, Cell c,
+                  const Index<Dim>& i, int k, int d) {
   double share = 1;
   for (int e = 0; e < Dim; ++e) {
     if (e == d) continue;
     const int high = Corners<Dim>::bit(k, e);
-    const double low_share = elements.lever[e][origin + corners.step[k - (high << e)]];
+    const Node low_end = low_node(c) + corners.step[k - (high << e)];
+    const double low_share = elements.lever.has(low_end) ? elements.lever[low_end][e] : even_lever(grid, i, e);
     share *= high == 1 ? 1 - low_share : low_share;
   }
   return share;
@@ -163,7 +202,7 @@ MeanGradient<Dim> PressureElements<Dim>::gradient(const Grid<Dim>& grid, const C
   for (int d = 0; d < Dim; ++d) {
     double of_face[2] = {};  // products of differing levers do not add up to 1 by themselves
     for (int k = 0; k < C::count; ++k) {
-      g.at[k][d] = face_share(*this, corners, low_node(c), k, d);
+      g.at[k][d] = face_share(*this, grid, corners, c, i, k, d);
       of_face[C::bit(k, d)] += g.at[k][d];
     }
     for (int k = 0; k < C::count; ++k) {
@@ -180,10 +219,11 @@ void mark_bearing_cells(const Grid<Dim>& grid, const CellField& total, CellMask&
 }
 
 template <int Dim>
-void find_pressure_elements(const Domain<Dim>& domain, const std::vector<Species>& species, const CellField& total,
-                            const Interfaces<Dim>& interfaces, PressureElements<Dim>& elements) {
+void find_pressure_elements(const Domain<Dim>& domain, const std::vector<Species>& species, const Fractions& phi,
+                            const CellField& total, const Interfaces<Dim>& interfaces,
+                            PressureElements<Dim>& elements) {
   const Corners<Dim> corners(domain.layout());
-  find_levers(domain, species, interfaces, elements);
+  find_levers(domain, species, phi, interfaces, elements);
   wrap(domain.layout(), domain.grid.cells(), elements.bears);
   mark_free_nodes(domain, elements.bears, elements.free);
   for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) {
@@ -200,8 +240,8 @@ void find_pressure_elements(const Domain<Dim>& domain, const std::vector<Species
   template struct PressureElements<Dim>;                                                                  \
   template MeanGradient<Dim> even_gradient(const Grid<Dim>&, const Index<Dim>&);                          \
   template void mark_bearing_cells(const Grid<Dim>&, const CellField&, CellMask&);                        \
-  template void find_pressure_elements(const Domain<Dim>&, const std::vector<Species>&, const CellField&, \
-                                       const Interfaces<Dim>&, PressureElements<Dim>&);
+  template void find_pressure_elements(const Domain<Dim>&, const std::vector<Species>&, const Fractions&, \
+                                       const CellField&, const Interfaces<Dim>&, PressureElements<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

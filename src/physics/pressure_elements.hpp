@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/domain.hpp"
+#include "core/sparse_field.hpp"
 #include "physics/mixture.hpp"
 #include "physics/surface.hpp"
 
@@ -53,10 +54,12 @@ struct MeanGradient {
 /// Where pressure acts and is solved for, and the levers of cut edges.
 template <int Dim>
 struct PressureElements {
-  CellMask bears;               ///< cells in which the pressure's gradient acts
-  NodeMask free;                ///< nodes whose pressure is solved for
-  CellMask cut;                 ///< cells with an edge whose mass is not even
-  Components<Dim, Node> lever;  ///< weight of the low node of the edge that begins at a node, per axis
+  CellMask bears;  ///< cells in which the pressure's gradient acts
+  NodeMask free;   ///< nodes whose pressure is solved for
+  CellMask cut;    ///< cells with an edge whose mass is not even
+  /// Weight of the low node of the edge that begins at a node, per axis, where a cell at one of these edges is cut by a
+  /// plane. Elsewhere it is that of the linear element.
+  SparseField<Node, Vec<Dim>> lever;
 
   explicit PressureElements(const Layout<Dim>& layout) : bears(layout), free(layout), cut(layout), lever(layout) {}
 
@@ -72,13 +75,13 @@ MeanGradient<Dim> even_gradient(const Grid<Dim>& grid, const Index<Dim>& i);
 template <int Dim>
 void mark_bearing_cells(const Grid<Dim>& grid, const CellField& total, CellMask& bears);
 
-/// Finds gaps, free nodes and levers from the marked cells, the total fraction and the planes.
+/// Finds gaps, free nodes and levers from the marked cells, the fractions and the planes.
 ///
 /// A node is free if all cells around it, in the domain or mirrored, bear pressure, and none lies beyond an open side.
 /// A gap, filled less than gap_fraction with free nodes on all corners, is taken out of `bears`.
 template <int Dim>
-void find_pressure_elements(const Domain<Dim>& domain, const std::vector<Species>& species, const CellField& total,
-                            const Interfaces<Dim>& interfaces, PressureElements<Dim>& elements);
+void find_pressure_elements(const Domain<Dim>& domain, const std::vector<Species>& species, const Fractions& phi,
+                            const CellField& total, const Interfaces<Dim>& interfaces, PressureElements<Dim>& elements);
 
 extern template struct PressureElements<2>;
 extern template struct PressureElements<3>;

@@ -59,7 +59,7 @@ struct CellPressure {
 
   CellPressure(const Grid<Dim>& grid, const Corners<Dim>& corners, const PressureElements<Dim>& elements, Cell c,
                const Index<Dim>& i)
-      : volume(grid.volume(c)), mean(elements.gradient(grid, corners, c, i)) {
+      : volume(grid.volume(i)), mean(elements.gradient(grid, corners, c, i)) {
     for (int a = 0; a < Corners<Dim>::count; ++a) {
       for (int b = 0; b <= a; ++b) stiffness[a][b] = stiffness[b][a] = quicksand::stiffness(grid, i, a, b);
     }
@@ -113,7 +113,7 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
       const Node na = corner[a];
       if (!free[na]) continue;
       double source = 0;
-      for (int d = 0; d < Dim; ++d) source += grid.volume(c) * u[d][c] * cell.mean.at[a][d];
+      for (int d = 0; d < Dim; ++d) source += cell.volume * u[d][c] * cell.mean.at[a][d];
       for (int b = 0; b < C::count; ++b) {
         const Node nb = corner[b];
         const double k = scale * cell.stiffness[a][b];
@@ -176,7 +176,7 @@ template <int Dim>
 void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure, const CellField& rho,
                            const PressureElements<Dim>& elements, double factor_dt, CellVectors<Dim>& u) {
   const Corners<Dim> corners(domain.layout());
-  for_each_indexed<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c, const Index<Dim>& i) {
+  for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c, const Index<Dim>& i) {
     if (!elements.bears[c]) return;
     const MeanGradient<Dim> g = elements.gradient(domain.grid, corners, c, i);
     for (int d = 0; d < Dim; ++d) {
@@ -240,7 +240,7 @@ double gas_work(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, c
       const Node na = corner[a];
       if (elements.free[na] || work.increment[na] == 0) continue;
       double outflow = 0;
-      for (int d = 0; d < Dim; ++d) outflow += grid.volume(c) * u_bar_star[d][c] * cell.mean.at[a][d];
+      for (int d = 0; d < Dim; ++d) outflow += cell.volume * u_bar_star[d][c] * cell.mean.at[a][d];
       for (int b = 0; b < C::count; ++b) outflow -= dt / rho[c] * cell.stiffness[a][b] * work.increment[corner[b]];
       work.rhs[na] += outflow;
     }

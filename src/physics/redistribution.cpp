@@ -36,21 +36,69 @@ double diagonal_entry(const Grid<Dim>& grid, Rule&& rule, const Index<Dim>& i) {
   return diagonal;
 }
 
-/// Diagonal of the operator (11) for velocity component e: Laplacian of a vector's component.
+/// Sets the diagonal of -div grad in the cells along the sides, by diagonal_entry().
+template <int Dim, class Rule>
+void set_side_diagonals(const Grid<Dim>& grid, Rule&& rule, CellField& diagonal) {
+  for (int d = 0; d < Dim; ++d) {
+    for (int s = 0; s < 2; ++s) {
+      if (!grid.at_boundary(d, s)) continue;
+      Box<Dim> layer = grid.cells();
+      (s == 0 ? layer.hi[d] : layer.lo[d]) = s == 0 ? 1 : layer.hi[d] - 1;
+      for_each<Cell>(grid.layout(), layer,
+                     [&](Cell c, const Index<Dim>& i) { diagonal[c] = diagonal_entry(grid, rule, i); });
+    }
+  }
+}
+
+/// A for volume.
 template <int Dim>
-void find_diagonal(const Domain<Dim>& domain, int e, CellField& diagonal) {
+StencilMatrix<Dim, Cell> volume_laplacian(const Domain<Dim>& domain) {
   const Grid<Dim>& grid = domain.grid;
-  const auto rule = [&](int d, int s) {
-    // H vanishes on an open side and has no slope on an inflow side, whatever the velocity does there.
-    const Side& side = domain.sides.at(d, s);
-    return is_passable(side) ? potential_rule(side) : inviscid_velocity_rule(side, d == e);
-  };
-  const bool turns = e == 0 && grid.axisymmetric();
-  for_each_indexed<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
-    diagonal[c] = diagonal_entry(grid, rule, i);
-    if (!turns) return;
+  StencilMatrix<Dim, Cell> laplacian(domain.layout(), Stencil::star);
+  const auto lower = [&](int d, Cell c) -> double& { return laplacian.lower[static_cast<std::size_t>(d)][c]; };
+  for_each_axis<Dim>([&](auto d) {
+    for_each<Face>(domain.layout(), grid.faces(d),
+                   [&](Face f, const Index<Dim>& i) { lower(d, high_cell(f)) = -coupling(grid, d, i); });
+  });
+  for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c) {
+    double coupled = 0;
+    for (int d = 0; d < Dim; ++d) coupled += lower(d, c) + lower(d, c + grid.step(d));
+    laplacian.diagonal[c] = -coupled;
+  });
+  set_side_diagonals(
+      grid, [&](int d, int s) { return potential_rule(domain.sides.at(d, s)); }, laplacian.diagonal);
+  // None couples out of the grid.
+  for (int d = 0; d < Dim; ++d) {
+    if (domain.layout().periodic(d)) continue;
+    for (const int end : {0, grid.owned_cells()[d]}) {
+      Box<Dim> layer = grid.cells();
+      layer.lo[d] = end;
+      layer.hi[d] = end + 1;
+      for_each<Cell>(domain.layout(), layer, [&](Cell c) { lower(d, c) = 0; });
+    }
+  }
+  laplacian.wrap_couplings();
+  return laplacian;
+}
+
+/// Diagonal of the operator (11) for velocity component e: Laplacian of a vector's component.
+/// \param of_volume  that for volume
+template <int Dim>
+void find_diagonal(const Domain<Dim>& domain, int e, const CellField& of_volume, CellField& diagonal) {
+  const Grid<Dim>& grid = domain.grid;
+  diagonal = of_volume;
+  set_side_diagonals(
+      grid,
+      [&](int d, int s) {
+        // H vanishes on an open side and has no slope on an inflow side, whatever the velocity does there.
+        const Side& side = domain.sides.at(d, s);
+        return is_passable(side) ? potential_rule(side) : inviscid_velocity_rule(side, d == e);
+      },
+      diagonal);
+  if (e != 0 || !grid.axisymmetric()) return;
+  for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
     const double r = grid.centre_position(0, i[0]);
-    diagonal[c] += grid.volume(c) / (r * r);
+    diagonal[c] += grid.volume(i) / (r * r);
   });
 }
 
@@ -62,6 +110,7 @@ class OtherDiagonal {
     std::swap(matrix_.diagonal, own_);
   }
   ~OtherDiagonal() { std::swap(matrix_.diagonal, own_); }
+  const CellField& own() const { return own_; }
   OtherDiagonal(const OtherDiagonal&) = delete;
   OtherDiagonal& operator=(const OtherDiagonal&) = delete;
 
@@ -75,7 +124,8 @@ template <int Dim>
 double apply_potential(const Domain<Dim>& domain, CellField& H, StencilMatrix<Dim, Cell>& laplacian, CellField& change,
                        CellField& phi) {
   laplacian.apply(H, change);
-  for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) { phi[c] -= change[c] / domain.grid.volume(c); });
+  for_each<Cell>(domain.layout(), domain.grid.cells(),
+                 [&](Cell c, const Index<Dim>& i) { phi[c] -= change[c] / domain.grid.volume(i); });
   return sum<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c) { return change[c]; });
 }
 
@@ -117,21 +167,14 @@ double settle_negative(const Domain<Dim>& domain, CellField& phi) {
 
 template <int Dim>
 RedistributionWork<Dim>::RedistributionWork(const Domain<Dim>& domain, const std::vector<Species>& species)
-    : laplacian(domain.layout(), Stencil::star),
-      H_species(species.size(), CellField(domain.layout())),
-      H(domain.layout()) {
-  least_density = std::numeric_limits<double>::infinity();
+    : H_species(species.size(), CellField(domain.layout())), least_density(std::numeric_limits<double>::infinity()) {
   for (const Species& s : species) least_density = std::min(least_density, smallest_filling * s.density);
-  const Grid<Dim>& grid = domain.grid;
-  const auto rule = [&](int d, int s) { return potential_rule(domain.sides.at(d, s)); };
-  for_each_indexed<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
-    laplacian.diagonal[c] = diagonal_entry(grid, rule, i);
-    for (int d = 0; d < Dim; ++d) {
-      const bool first = i[d] == 0 && !domain.layout().periodic(d);
-      laplacian.lower[static_cast<std::size_t>(d)][c] = first ? 0.0 : -coupling(grid, d, i);
-    }
-  });
-  laplacian.wrap_couplings();
+}
+
+template <int Dim>
+void RedistributionWork<Dim>::release() {
+  H = {};
+  laplacian = {};
 }
 
 template <int Dim>
@@ -142,15 +185,18 @@ std::vector<ObstacleReport> redistribute_volume(const Domain<Dim>& domain, const
   const Layout<Dim>& layout = domain.layout();
   std::vector<ObstacleReport> reports;
   CellField excess(layout);  // (phi~ - limit) V, then what leaves a cell
-  work.H.fill(0);
+  CellField volume(layout);
+  for_each<Cell>(layout, grid.cells(), [&](Cell c, const Index<Dim>& i) { volume[c] = grid.volume(i); });
+  work.laplacian = volume_laplacian(domain);
+  work.H = CellField(layout);
   for (std::size_t i = 0; i < phi.size(); ++i) {
     CellField& H_i = work.H_species[i];
     for_each<Cell>(layout, grid.cells(), [&](Cell c) {
       double taken = 0;
       for (std::size_t j = 0; j < i; ++j) taken += phi[j][c];
-      excess[c] = (phi[i][c] - std::max(1 - taken, 0.0)) * grid.volume(c);
+      excess[c] = (phi[i][c] - std::max(1 - taken, 0.0)) * volume[c];
     });
-    reports.push_back(solve_obstacle(work.laplacian, excess, grid.volumes(), H_i, options));
+    reports.push_back(solve_obstacle(work.laplacian, excess, volume, H_i, options));
     if (!reports.back().trivial) {
       escaped[i] += apply_potential(domain, H_i, work.laplacian, excess, phi[i]);
       for_each<Cell>(layout, grid.cells(), [&](Cell c) { work.H[c] += species[i].density * H_i[c]; });
@@ -185,16 +231,16 @@ SolveReport redistribute_momentum(const Domain<Dim>& domain, const CellVectors<D
   CellField y(layout), rhs(layout);
   SolveReport worst{.converged = true};
   for (int e = 0; e < Dim; ++e) {
-    find_diagonal(domain, e, A.diagonal);
+    find_diagonal(domain, e, of_component.own(), A.diagonal);
     y.fill(0);
-    for_each<Cell>(layout, box, [&](Cell c) {
+    for_each<Cell>(layout, box, [&](Cell c, const Index<Dim>& i) {
       const bool in = H[c] > 0;
-      system.diagonal[c] = in ? grid.volume(c) * rho[c] / H[c] + A.diagonal[c] : 1.0;
+      system.diagonal[c] = in ? grid.volume(i) * rho[c] / H[c] + A.diagonal[c] : 1.0;
       for (int d = 0; d < Dim; ++d) {
         const std::size_t k = static_cast<std::size_t>(d);
         system.lower[k][c] = in && H[c - grid.step(d)] > 0 ? A.lower[k][c] : 0.0;
       }
-      rhs[c] = in ? grid.volume(c) * momentum_tilde[e][c] : 0.0;
+      rhs[c] = in ? grid.volume(i) * momentum_tilde[e][c] : 0.0;
       y[c] = in ? H[c] * momentum_tilde[e][c] / rho[c] : 0.0;
     });
     system.wrap_couplings();
@@ -203,8 +249,9 @@ SolveReport redistribute_momentum(const Domain<Dim>& domain, const CellVectors<D
     if (report.iterations > worst.iterations) worst = report;
     // In flux form, so that momentum is conserved however well y was solved for.
     A.apply(y, rhs);
-    for_each<Cell>(layout, grid.cells(),
-                   [&](Cell c) { set_velocity(e, c, momentum_tilde[e][c] - rhs[c] / grid.volume(c)); });
+    for_each<Cell>(layout, grid.cells(), [&](Cell c, const Index<Dim>& i) {
+      set_velocity(e, c, momentum_tilde[e][c] - rhs[c] / grid.volume(i));
+    });
   }
   return worst;
 }

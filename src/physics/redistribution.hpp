@@ -11,16 +11,19 @@
 
 namespace quicksand {
 
-/// The operator A = -div grad in finite volumes, H of every species (next step's guess), and work arrays.
+/// H of every species (next step's guess), and what redistribute_volume() leaves for redistribute_momentum().
 template <int Dim>
 struct RedistributionWork {
-  StencilMatrix<Dim, Cell> laplacian;  ///< for volume; that of a velocity component differs in its diagonal
-  std::vector<CellField> H_species;    ///< H_i of (25)
-  CellField H;                         ///< (27)
-
+  std::vector<CellField> H_species;  ///< H_i of (25)
+  CellField H;                       ///< (27)
+  /// A = -div grad in finite volumes, for volume; that of a velocity component differs in its diagonal. Made in every
+  /// step, since the other phases need the memory more.
+  StencilMatrix<Dim, Cell> laplacian;
   double least_density;  ///< cells of lower density are without momentum
 
   RedistributionWork(const Domain<Dim>& domain, const std::vector<Species>& species);
+  /// Frees all but the guesses.
+  void release();
 };
 
 /// Redistributes the fractions in place, species by species in the order of the successive constraint (24)-(25), and

@@ -14,9 +14,9 @@ namespace {
 template <int Dim>
 void map_fractions(const GridOverlap<Dim>& overlap, const SpeciesParts<Dim>& parts, Fractions& phi) {
   const Grid<Dim>& grid = overlap.target();
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
     overlap.for_parts_of_target(i, [&](const GridPart<Dim>& part) {
-      parts.for_volumes(part, [&](std::size_t k, double volume) { phi[k][c] += volume / grid.volume(c); });
+      parts.for_volumes(part, [&](std::size_t k, double volume) { phi[k][c] += volume / grid.volume(i); });
     });
   });
 }
@@ -37,7 +37,7 @@ void interpolate_nodes(const Grid<Dim>& from, const NodeField& q, const Grid<Dim
       place[axis].push_back(std::clamp((x - from.face_position(d, k)) / from.width_1d(d, k), 0.0, 1.0));
     }
   }
-  for_each_indexed<Node>(to.layout(), to.nodes(), [&](Node n, const Index<Dim>& i) {
+  for_each<Node>(to.layout(), to.nodes(), [&](Node n, const Index<Dim>& i) {
     double value = 0;
     for (int corner = 0; corner < (1 << Dim); ++corner) {
       Index<Dim> j;
@@ -63,7 +63,7 @@ template <int Dim>
 void map_regions(const GridOverlap<Dim>& overlap, const SpeciesParts<Dim>& parts, const CellLabels& region,
                  CellLabels& mapped) {
   const Grid<Dim>& grid = overlap.target();
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
     std::map<int, double> from;
     overlap.for_parts_of_target(i, [&](const GridPart<Dim>& part) {
       if (region[part.source] == 0) return;
@@ -71,7 +71,7 @@ void map_regions(const GridOverlap<Dim>& overlap, const SpeciesParts<Dim>& parts
       parts.for_volumes(part, [&](std::size_t, double volume) { gas -= volume; });
       from[region[part.source]] += gas;
     });
-    double most = no_gas * grid.volume(c);
+    double most = no_gas * grid.volume(i);
     for (const auto& [id, gas] : from) {
       if (gas <= most) continue;
       most = gas;

@@ -37,7 +37,7 @@ double rounding_bound(const ViscousProblem<Dim>& p) {
   const DiffusionWork<Dim>& work = p.work;
   const Grid<Dim>& grid = p.domain.grid;
   NodeField forces(grid.layout());
-  for_each_indexed<Node>(grid.layout(), grid.nodes(), [&](Node n, const Index<Dim>& i) {
+  for_each<Node>(grid.layout(), grid.nodes(), [&](Node n, const Index<Dim>& i) {
     if (!work.elements.active[n]) return;
     forces[n] = work.elements.rheology[n].rigid_yield_stress * work.elements.share[n] *
                 work.elements.mesh.element(n, i).volume();

@@ -25,13 +25,13 @@ SpeciesParts<Dim>::SpeciesParts(const GridOverlap<Dim>& overlap, const Fractions
 
 template <int Dim>
 double SpeciesParts<Dim>::filled(std::size_t k, const GridPart<Dim>& part, double offset) const {
-  const Surface<Dim>& surface = interfaces_.surface[k];
+  const Surface<Dim>& surface = interfaces_[k];
   const Cell c = part.source;
-  if (!surface.cuts(c)) return interfaces_.region[k][c];
+  if (!surface.has(c)) return region_fraction(phi_, k, c);
   // The part as a unit cube of its own, mirrored along axes where the normal is negative.
   Vec<Dim> m;
   for (int d = 0; d < Dim; ++d) {
-    const double n = surface.plane(c).normal[d];
+    const double n = surface[c].normal[d];
     m[d] = std::abs(n) * (part.high[d] - part.low[d]);
     offset -= n * (n >= 0 ? part.low[d] : part.high[d]);
   }
@@ -41,19 +41,19 @@ double SpeciesParts<Dim>::filled(std::size_t k, const GridPart<Dim>& part, doubl
 template <int Dim>
 void SpeciesParts<Dim>::place_planes(std::size_t k) {
   const Grid<Dim>& grid = overlap_.source();
-  const Surface<Dim>& surface = interfaces_.surface[k];
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
-    if (!surface.cuts(c)) return;
-    const CellPlane<Dim>& plane = surface.plane(c);
+  const Surface<Dim>& surface = interfaces_[k];
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+    if (!surface.has(c)) return;
+    const CellPlane<Dim>& plane = surface[c];
     double low = 0;
     double high = 0;
     for (const double n : plane.normal.v) (n < 0 ? low : high) += n;
-    const double fraction = interfaces_.region[k][c];
+    const double fraction = region_fraction(phi_, k, c);
     const auto error = [&](double offset) {
       double volume = 0;
       overlap_.for_parts_of_source(i,
                                    [&](const GridPart<Dim>& part) { volume += part.volume * filled(k, part, offset); });
-      return volume / grid.volume(c) - fraction;
+      return volume / grid.volume(i) - fraction;
     };
     offset_[k][c] = rising_root(error, low, high, -fraction, 1 - fraction, plane.offset);
   });
@@ -62,9 +62,9 @@ void SpeciesParts<Dim>::place_planes(std::size_t k) {
 template <int Dim>
 void SpeciesParts<Dim>::find_mixed() {
   const Grid<Dim>& grid = overlap_.source();
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
     overlap_.for_parts_of_source(i, [&](const GridPart<Dim>& part) {
-      const double share = part.volume / grid.volume(c);
+      const double share = part.volume / grid.volume(i);
       for (std::size_t k = 1; k < species(); ++k) {
         const double excess = share * (filled(k - 1, part) - filled(k, part));
         // Fractions may be below zero by round-off: that is no crossing.

@@ -25,7 +25,7 @@ class SpeciesParts {
   void for_volumes(const GridPart<Dim>& part, Body&& body) const {
     const Cell c = part.source;
     const std::size_t whole = species() - 1;
-    const double mixed_share = mixed_[c] ? part.volume * filled(whole, part) / interfaces_.region[whole][c] : 0.0;
+    const double mixed_share = mixed_[c] ? part.volume * filled(whole, part) / region_fraction(phi_, whole, c) : 0.0;
     double below = 0;
     for (std::size_t k = 0; k < species(); ++k) {
       const double up_to = mixed_[c] ? below + mixed_share * phi_[k][c] : part.volume * filled(k, part);

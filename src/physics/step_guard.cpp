@@ -18,7 +18,7 @@ constexpr double negligible_way = 1e-10;
 
 template <int Dim>
 double whole_mass(const Grid<Dim>& grid, const CellField& rho) {
-  return sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return rho[c] * grid.volume(c); });
+  return sum<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) { return rho[c] * grid.volume(i); });
 }
 
 void check_rise(const char* phase, double rise, double scale, double bound) {
@@ -60,7 +60,8 @@ template <int Dim>
 std::vector<double> volumes(const Grid<Dim>& grid, const Fractions& phi, const std::vector<double>& escaped) {
   std::vector<double> volume = escaped;
   for (std::size_t i = 0; i < phi.size(); ++i) {
-    volume[i] += sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return phi[i][c] * grid.volume(c); });
+    volume[i] += sum<Cell>(grid.layout(), grid.cells(),
+                           [&](Cell c, const Index<Dim>& at) { return phi[i][c] * grid.volume(at); });
   }
   return volume;
 }

@@ -78,7 +78,7 @@ bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>&
   const Grid<Dim>& grid = domain.grid;
   const Layout<Dim>& layout = domain.layout();
   NodeField& liquid = elements.share;  // volume of liquid first, then share
-  for_each_indexed<Node>(layout, grid.nodes(), [&](Node n, const Index<Dim>& i) {
+  for_each<Node>(layout, grid.nodes(), [&](Node n, const Index<Dim>& i) {
     const DualElement<Dim> e = elements.mesh.element(n, i);
     double whole = 0;
     bool empty = false;
@@ -98,14 +98,14 @@ bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>&
   });
   // An inactive element leaves each active neighbour an equal part of its liquid.
   NodeField& part = elements.part;
-  for_each_indexed<Node>(layout, grid.nodes(), [&](Node n, const Index<Dim>& i) {
+  for_each<Node>(layout, grid.nodes(), [&](Node n, const Index<Dim>& i) {
     part[n] = 0;
     if (elements.active[n] || !(liquid[n] > 0)) return;
     int heirs = 0;
     for_each_neighbour(grid, i, [&](Node m) { heirs += elements.active[m]; });
     if (heirs > 0) part[n] = liquid[n] / heirs;
   });
-  for_each_indexed<Node>(layout, grid.nodes(), [&](Node n, const Index<Dim>& i) {
+  for_each<Node>(layout, grid.nodes(), [&](Node n, const Index<Dim>& i) {
     if (!elements.active[n]) return;
     for_each_neighbour(grid, i, [&](Node m) { liquid[n] += part[m]; });
     elements.share[n] = liquid[n] / elements.mesh.element(n, i).volume();

@@ -19,7 +19,7 @@ constexpr double faint = 0.05;
 /// Outward normal times cell width along each axis, from differences of the fraction averaged over the 3^Dim block with
 /// weights 1-2-1 across (Youngs 1984).
 template <int Dim>
-Vec<Dim> youngs_normal(const Grid<Dim>& grid, const CellField& total, Cell c) {
+Vec<Dim> youngs_normal(const Grid<Dim>& grid, const CellField& total, Cell c, const Index<Dim>& i) {
   Vec<Dim> n;
   for (int d = 0; d < Dim; ++d) {
     const Step along = grid.step(d);
@@ -38,8 +38,7 @@ Vec<Dim> youngs_normal(const Grid<Dim>& grid, const CellField& total, Cell c) {
       }
       difference += weight * (total[at - along] - total[at + along]);
     }
-    const double distance = grid.width(d, c) + 0.5 * (grid.width(d, c - along) + grid.width(d, c + along));
-    n[d] = difference * grid.width(d, c) / distance;
+    n[d] = difference * grid.width_1d(d, i[d]) / grid.spacing_around(d, i[d]);
   }
   return n;
 }
@@ -48,38 +47,40 @@ Vec<Dim> youngs_normal(const Grid<Dim>& grid, const CellField& total, Cell c) {
 
 template <int Dim>
 void reconstruct_surface(const Grid<Dim>& grid, const CellField& total, Surface<Dim>& surface) {
-  const auto candidate = [&](Cell c) { return !(total[c] < uncut || total[c] > 1 - uncut); };
-  surface.find(grid.layout(), grow(grid.cells(), 1), candidate, [&](Cell c) {
-    CellPlane<Dim> plane;
-    const Vec<Dim> n = youngs_normal(grid, total, c);
-    double norm = 0;
-    for (int d = 0; d < Dim; ++d) norm += std::abs(n[d]);
-    constexpr double full_norm = Dim == 2 ? 2 : 8;
-    if (norm < faint * full_norm) return plane;
-    Vec<Dim> m;
-    double mirrored = 0;
-    for (int d = 0; d < Dim; ++d) {
-      plane.normal[d] = n[d] / norm;
-      m[d] = std::abs(n[d]) / norm;
-      if (n[d] < 0) mirrored += m[d];
-    }
-    plane.offset = plane_offset(m, total[c]) - mirrored;
-    return plane;
-  });
+  const auto candidate = [&](Cell c, const Index<Dim>&) { return !(total[c] < uncut || total[c] > 1 - uncut); };
+  surface.find(grid.layout(), grow(grid.cells(), 1), candidate,
+               [&](Cell c, const Index<Dim>& i, CellPlane<Dim>& plane) {
+                 const Vec<Dim> n = youngs_normal(grid, total, c, i);
+                 double norm = 0;
+                 for (int d = 0; d < Dim; ++d) norm += std::abs(n[d]);
+                 constexpr double full_norm = Dim == 2 ? 2 : 8;
+                 if (norm < faint * full_norm) return false;
+                 Vec<Dim> m;
+                 double mirrored = 0;
+                 for (int d = 0; d < Dim; ++d) {
+                   plane.normal[d] = n[d] / norm;
+                   m[d] = std::abs(n[d]) / norm;
+                   if (n[d] < 0) mirrored += m[d];
+                 }
+                 plane.offset = plane_offset(m, total[c]) - mirrored;
+                 return true;
+               });
 }
 
 template <int Dim>
-void reconstruct_interfaces(const Grid<Dim>& grid, const std::vector<CellField>& phi, Interfaces<Dim>& interfaces) {
-  for (std::size_t i = 0; i < phi.size(); ++i) {
-    CellField& region = interfaces.region[i];
-    for_each<Cell>(grid.layout(), grow(grid.cells(), ghosts),
-                   [&](Cell c) { region[c] = i == 0 ? phi[0][c] : interfaces.region[i - 1][c] + phi[i][c]; });
-    reconstruct_surface(grid, region, interfaces.surface[i]);
+void reconstruct_interfaces(const Grid<Dim>& grid, const Fractions& phi, Interfaces<Dim>& interfaces) {
+  interfaces.resize(phi.size(), Surface<Dim>(grid.layout()));
+  reconstruct_surface(grid, phi[0], interfaces[0]);
+  if (phi.size() == 1) return;
+  CellField region = phi[0];
+  for (std::size_t k = 1; k < phi.size(); ++k) {
+    for_each<Cell>(grid.layout(), grow(grid.cells(), ghosts), [&](Cell c) { region[c] += phi[k][c]; });
+    reconstruct_surface(grid, region, interfaces[k]);
   }
 }
 
-template void reconstruct_interfaces(const Grid<2>&, const std::vector<CellField>&, Interfaces<2>&);
-template void reconstruct_interfaces(const Grid<3>&, const std::vector<CellField>&, Interfaces<3>&);
+template void reconstruct_interfaces(const Grid<2>&, const Fractions&, Interfaces<2>&);
+template void reconstruct_interfaces(const Grid<3>&, const Fractions&, Interfaces<3>&);
 template void reconstruct_surface(const Grid<2>&, const CellField&, Surface<2>&);
 template void reconstruct_surface(const Grid<3>&, const CellField&, Surface<3>&);
 

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "core/loop.hpp"
+#include "core/sparse_field.hpp"
+#include "physics/mixture.hpp"
 #include "physics/plane.hpp"
 
 namespace quicksand {
@@ -25,77 +26,45 @@ struct CellPlane {
 
 /// The planes of the few cells that a surface cuts.
 template <int Dim>
-class Surface {
- public:
-  explicit Surface(const Layout<Dim>& layout) : number_(layout, uncut) {}
+using Surface = SparseField<Cell, CellPlane<Dim>>;
 
-  bool cuts(Cell c) const { return number_[c] != uncut; }
-  /// The plane in a cell that is cut.
-  const CellPlane<Dim>& plane(Cell c) const { return planes_[static_cast<std::size_t>(number_[c])]; }
-  /// Puts plane(c) into the cells of the box where candidate(c), unless its normal is zero. No other cells are cut
-  /// after that.
-  template <class Candidate, class FindPlane>
-  void find(const Layout<Dim>& layout, const Box<Dim>& box, Candidate&& candidate, FindPlane&& plane) {
-    number_.fill(uncut);
-    int count = 0;  // in order of the cells, whatever the number of threads: serial
-    const Rows<Dim> rows(layout, box);
-    for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
-      const std::ptrdiff_t start = rows.start(r);
-      for (int i = 0; i < rows.length; ++i) {
-        const Cell c{start + i};
-        if (candidate(c)) number_[c] = count++;
-      }
-    }
-    planes_.resize(static_cast<std::size_t>(count));
-    for_each<Cell>(layout, box, [&](Cell c) {
-      if (!cuts(c)) return;
-      CellPlane<Dim>& found = planes_[static_cast<std::size_t>(number_[c])];
-      found = plane(c);
-      if (found.normal == Vec<Dim>{}) number_[c] = uncut;
-    });
-  }
-
- private:
-  static constexpr int uncut = -1;
-  Field<Cell, int> number_;
-  std::vector<CellPlane<Dim>> planes_;
-};
-
-/// The surfaces of the species' nested regions: region i holds species 0 ... i together, the last one all liquid.
+/// The surfaces of the species' nested regions: region k holds species 0 ... k together, the last one all liquid.
 template <int Dim>
-struct Interfaces {
-  std::vector<CellField> region;      ///< fraction of the region
-  std::vector<Surface<Dim>> surface;  ///< its planes
+using Interfaces = std::vector<Surface<Dim>>;
 
-  Interfaces(const Layout<Dim>& layout, std::size_t n_species)
-      : region(n_species, CellField(layout)), surface(n_species, Surface<Dim>(layout)) {}
-};
+/// Fraction of region k in a cell.
+inline double region_fraction(const Fractions& phi, std::size_t k, Cell c) {
+  double fraction = phi[0][c];
+  for (std::size_t j = 1; j <= k; ++j) fraction += phi[j][c];
+  return fraction;
+}
 
-/// Finds regions and planes from the species' fractions (both ghost layers filled).
+/// Finds the regions' planes from the species' fractions (both ghost layers filled). \param interfaces  of any size
 template <int Dim>
-void reconstruct_interfaces(const Grid<Dim>& grid, const std::vector<CellField>& phi, Interfaces<Dim>& interfaces);
+void reconstruct_interfaces(const Grid<Dim>& grid, const Fractions& phi, Interfaces<Dim>& interfaces);
 
 /// Finds the planes in owned cells and one ghost layer from the total fraction (both ghost layers filled).
 template <int Dim>
 void reconstruct_surface(const Grid<Dim>& grid, const CellField& total, Surface<Dim>& surface);
 
-/// Filled part of what crosses a face of cell c during dt: the slab of thickness |velocity| dt inside the face, with
-/// the plane moved by the transverse velocities to half time. \param side  +1: high face along d, -1: low face
+/// Filled part of what crosses a face of cell c with index i during dt: the slab of thickness |velocity| dt inside the
+/// face, with the plane moved by the transverse velocities to half time. \param filling  fraction of the region in the
+/// cell \param side     +1: high face along d, -1: low face
 template <int Dim>
-double swept_fraction(const Grid<Dim>& grid, const Surface<Dim>& surface, const CellField& total,
-                      const CellVectors<Dim>& u, Cell c, int d, int side, double velocity, double dt) {
-  if (!surface.cuts(c)) return std::min(total[c], 1.0);
-  const CellPlane<Dim>& plane = surface.plane(c);
+double swept_fraction(const Grid<Dim>& grid, const Surface<Dim>& surface, double filling, const CellVectors<Dim>& u,
+                      Cell c, const Index<Dim>& i, int d, int side, double velocity, double dt) {
+  if (!surface.has(c)) return std::min(filling, 1.0);
+  const CellPlane<Dim>& plane = surface[c];
   double offset = plane.offset;
   Vec<Dim> m;
   for (int e = 0; e < Dim; ++e) {
     const double n = plane.normal[e];
-    if (e != d) offset += 0.5 * dt * n * u[e][c] / grid.width(e, c);
+    if (e != d) offset += 0.5 * dt * n * u[e][c] / grid.width_1d(e, i[e]);
     // Mirrored axes make all components positive.
     if (n < 0) offset -= n;
     m[e] = std::abs(n);
   }
-  const double thickness = std::min(std::abs(velocity) * dt / grid.width(d, c), 1.0);
+  const double thickness = std::min(std::abs(velocity) * dt / grid.width_1d(d, i[d]), 1.0);
   const bool slab_at_end = (side > 0) == (plane.normal[d] >= 0);
   if (slab_at_end) offset -= m[d] * (1 - thickness);
   m[d] *= thickness;

@@ -53,10 +53,10 @@ double stable_step(const Flow<Dim>& flow, double cfl) {
   double rate = std::max(bubble_rate(flow, cfl), inflow_rate(flow.domain(), cfl));  // largest 1 / dt
   for (int d = 0; d < Dim; ++d) {
     const double g = std::abs(flow.parameters().gravity[d]);
-    rate = std::max(rate, maximum<Cell>(grid.layout(), grid.cells(), 0.0, [&](Cell c) {
+    rate = std::max(rate, maximum<Cell>(grid.layout(), grid.cells(), 0.0, [&](Cell c, const Index<Dim>& i) {
                       if (flow.total()[c] < empty_fraction) return 0.0;
-                      const double v = std::abs(state.u[d][c]) / grid.width(d, c);
-                      const double a = std::max(std::abs(state.acceleration[d][c]), g) / grid.width(d, c);
+                      const double v = std::abs(state.u[d][c]) / grid.width_1d(d, i[d]);
+                      const double a = std::max(std::abs(state.acceleration[d][c]), g) / grid.width_1d(d, i[d]);
                       return (v + std::sqrt(v * v + 2 * a * cfl)) / (2 * cfl);
                     }));
   }

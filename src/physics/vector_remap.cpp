@@ -37,7 +37,8 @@ constexpr double energy_slack = 1e-14;
 template <int Dim>
 void shrink_to_mean(const Grid<Dim>& grid, const CellField& rho, double limit, CellVectors<Dim>& u) {
   const auto over_mass = [&](auto&& f) {
-    return sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return rho[c] * grid.volume(c) * f(c); });
+    return sum<Cell>(grid.layout(), grid.cells(),
+                     [&](Cell c, const Index<Dim>& i) { return rho[c] * grid.volume(i) * f(c); });
   };
   const double mass = over_mass([](Cell) { return 1.0; });
   Vec<Dim> mean;
@@ -64,7 +65,7 @@ MassMap<Dim>::MassMap(const SpeciesParts<Dim>& parts, const GridOverlap<Dim>& ov
       rho_(rho),
       centre_(overlap.source().layout()) {
   const Grid<Dim>& grid = overlap.source();
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
     double whole = 0;
     Vec<Dim> moment;
     overlap.for_parts_of_source(i, [&](const GridPart<Dim>& part) {
@@ -88,12 +89,13 @@ template <int Dim>
 Vec<Dim> MassMap<Dim>::deviation(const CellVectors<Dim>& q, const GridPart<Dim>& part) const {
   const Grid<Dim>& grid = overlap_.source();
   const Cell c = part.source;
+  const Index<Dim> i = grid.layout().multi(c.n);
   Vec<Dim> v;
   for (int d = 0; d < Dim; ++d) {
     const Step e = grid.step(d);
     if (std::min({total_[c - e], total_[c], total_[c + e]}) < empty_fraction) continue;
     const double distance = part.centre[d] - centre_[d][c];
-    for (int k = 0; k < Dim; ++k) v[k] += limited_slope(grid, q[k], c, d) * distance;
+    for (int k = 0; k < Dim; ++k) v[k] += limited_slope(grid, q[k], c, i, d) * distance;
   }
   return v;
 }
@@ -103,7 +105,7 @@ void MassMap<Dim>::map(const CellVectors<Dim>& q, CellVectors<Dim>& mapped) cons
   const Grid<Dim>& from = overlap_.source();
   const Grid<Dim>& to = overlap_.target();
   CellField factor(from.layout());
-  for_each_indexed<Cell>(from.layout(), from.cells(), [&](Cell c, const Index<Dim>& i) {
+  for_each<Cell>(from.layout(), from.cells(), [&](Cell c, const Index<Dim>& i) {
     double limit = norm_square(q.at(c));
     for (int d = 0; d < Dim; ++d) {
       for (const int side : {0, 1}) {
@@ -119,7 +121,7 @@ void MassMap<Dim>::map(const CellVectors<Dim>& q, CellVectors<Dim>& mapped) cons
     });
     factor[c] = largest;
   });
-  for_each_indexed<Cell>(to.layout(), to.cells(), [&](Cell c, const Index<Dim>& i) {
+  for_each<Cell>(to.layout(), to.cells(), [&](Cell c, const Index<Dim>& i) {
     double whole = 0;
     Vec<Dim> momentum;
     overlap_.for_parts_of_target(i, [&](const GridPart<Dim>& part) {
@@ -139,16 +141,18 @@ void lower_kinetic_energy(const Domain<Dim>& domain, const CellField& rho, doubl
   const auto too_much = [&] { return kinetic_energy(grid, rho, u) > limit * (1 + energy_slack); };
   for (int exchange = 0; exchange < most_exchanges && too_much(); ++exchange) {
     for (int d = 0; d < Dim; ++d) wrap(grid.layout(), grid.cells(), u[d]);
-    for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c) {
-      const double mass = rho[c] * grid.volume(c);
+    for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+      const double mass = rho[c] * grid.volume(i);
       for (int d = 0; d < Dim; ++d) smoother[d][c] = u[d][c];
       if (!(mass > 0)) return;
       for (int d = 0; d < Dim; ++d) {
         const Step e = grid.step(d);
-        for (const auto& [n, face] : {std::pair(c - e, low_face(c)), std::pair(c + e, low_face(c + e))}) {
-          if (!(domain.aperture[d][face] > 0) || domain.beyond[n] != Beyond::nothing) continue;
+        for (const int side : {-1, 1}) {
+          const Cell n = c + side * e;
+          const bool open = domain.passes(d, side < 0 ? i : shifted(i, d, 1));
+          if (!open || domain.beyond[n] != Beyond::nothing) continue;
           // A quarter of the smaller mass over all axes: at most half a cell's momentum changes hands.
-          const double exchanged = std::min(mass, rho[n] * grid.volume(n)) / (4 * Dim);
+          const double exchanged = std::min(mass, rho[n] * grid.volume(shifted(i, d, side))) / (4 * Dim);
           for (int k = 0; k < Dim; ++k) smoother[k][c] += exchanged / mass * (u[k][n] - u[k][c]);
         }
       }

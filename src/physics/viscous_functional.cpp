@@ -339,7 +339,7 @@ NodeField dual_steps(const Domain<Dim>& domain, double dt, const DiffusionWork<D
     for (const Cell c : work.elements.mesh.element(n, index).corner) corners[c] += 1;
   });
   NodeField steps(layout);
-  for_each_indexed<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
+  for_each<Node>(layout, elements, [&](Node n, const Index<Dim>& index) {
     if (!work.elements.active[n]) return;
     const DualElement<Dim> e = work.elements.mesh.element(n, index);
     double weights[point_count<Dim>];

@@ -65,7 +65,7 @@ template <int Dim, class Body>
 void for_each_stress_point(const Domain<Dim>& domain, const CellVectors<Dim>& u, DiffusionWork<Dim>& work,
                            Body&& body) {
   const Box<Dim> elements = elements_around(domain.grid, work.matrix.box());
-  for_each_indexed<Node>(domain.layout(), elements, [&](Node n, const Index<Dim>& index) {
+  for_each<Node>(domain.layout(), elements, [&](Node n, const Index<Dim>& index) {
     if (!work.elements.active[n]) return;
     const DualElement<Dim> e = work.elements.mesh.element(n, index);
     double corner[corner_count<Dim>][Dim];

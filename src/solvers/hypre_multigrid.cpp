@@ -251,7 +251,7 @@ struct Multigrid<Dim, At>::Hierarchy {
     Field<At> coupling(layout_);  // of a point along an axis, both ways
     const double points = static_cast<double>(box_.size());
     for (std::size_t a = 0; a < axes_.count; ++a) {
-      for_each_indexed<At>(layout_, box_, [&](At p, const Index<Dim>& i) {
+      for_each<At>(layout_, box_, [&](At p, const Index<Dim>& i) {
         coupling[p] = 0;
         for (std::size_t e = 0; e < matrix.offsets.size(); ++e) {
           if (matrix.offsets[e][axes_.axis[a]] == 0) continue;

@@ -180,7 +180,7 @@ class ObstacleSolver {
       const CellField& all = matrix_.lower[static_cast<std::size_t>(d)];
       CellField& kept = reduced_.lower[static_cast<std::size_t>(d)];
       const Step along = layout_.step(d);
-      for_each_indexed<Cell>(layout_, extend_high(box_, d), [&](Cell c, const Index<Dim>& i) {
+      for_each<Cell>(layout_, extend_high(box_, d), [&](Cell c, const Index<Dim>& i) {
         const Cell low = c + (layout_.image(d, i[d] - 1) - i[d]) * along;
         kept[c] = in_system(c) && in_system(low) ? all[c] : 0;
       });

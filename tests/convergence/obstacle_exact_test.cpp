@@ -11,6 +11,7 @@
 
 #include "solvers/obstacle.hpp"
 #include "support/figures.hpp"
+#include "support/grids.hpp"
 #include "unit/solvers_problems.hpp"
 
 namespace quicksand {
@@ -64,12 +65,11 @@ Errors redistribute(const Grid<Dim>& grid, double e, const Exact& exact, RadiusO
   const Layout<Dim>& layout = grid.layout();
   const auto matrix = cell_laplacian(grid, [](const Index<Dim>&) { return true; });
   CellField b(layout), H(layout), moved(layout);
-  for_each_indexed<Cell>(layout, grid.cells(), [&](Cell c, const Index<Dim>& i) {
-    b[c] = ((1 + e) * filled_share(grid, i) - 1) * grid.volume(c);
-  });
+  for_each<Cell>(layout, grid.cells(),
+                 [&](Cell c, const Index<Dim>& i) { b[c] = ((1 + e) * filled_share(grid, i) - 1) * grid.volume(c); });
   ObstacleOptions options;
   options.tolerance = tolerance;
-  solve_obstacle(matrix, b, grid.volumes(), H, options);
+  solve_obstacle(matrix, b, testing::volumes(grid), H, options);
 
   matrix.apply(H, moved);
   double filled = 0;

@@ -53,13 +53,13 @@ Flight fly(int n, double courant) {
   const Shape exact = SphereShape{{start + duration * velocity[0], 0, start + duration * velocity[1]}, radius};
   CellField wrong(grid.layout());
   Flight flight{};
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<2>& i) {
-    wrong[c] = std::abs(flow.total()[c] - fraction(exact, grid, i));
-    if (flow.total()[c] < empty_fraction) return;
-    for (int d = 0; d < 2; ++d) {
-      flight.velocity_error = std::max(flight.velocity_error, std::abs(flow.state().u[d][c] - velocity[d]));
-    }
-  });
+  for_each<Cell>(grid.layout(), grid.cells(),
+                 [&](Cell c, const Index<2>& i) { wrong[c] = std::abs(flow.total()[c] - fraction(exact, grid, i)); });
+  for (int d = 0; d < 2; ++d) {
+    flight.velocity_error = maximum<Cell>(grid.layout(), grid.cells(), flight.velocity_error, [&](Cell c) {
+      return flow.total()[c] < empty_fraction ? 0.0 : std::abs(flow.state().u[d][c] - velocity[d]);
+    });
+  }
   flight.shape_error = 0.5 * testing::integral(grid, wrong) / volume;
   flight.volume_error = std::abs(testing::integral(grid, flow.total()) + flow.escaped()[0] - volume) / volume;
   return flight;

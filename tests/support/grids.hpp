@@ -61,14 +61,13 @@ double rough(const Index<Dim>& i, double seed) {
 /// Sets owned cells to f(centre).
 template <int Dim, class F>
 void set_cells(const Grid<Dim>& grid, CellField& field, F&& f) {
-  for_each_indexed<Cell>(grid.layout(), grid.cells(),
-                         [&](Cell c, const Index<Dim>& i) { field[c] = f(grid.centre(i)); });
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) { field[c] = f(grid.centre(i)); });
 }
 
 /// Sets owned cells to rough numbers.
 template <int Dim>
 void set_rough(const Grid<Dim>& grid, CellField& field, double seed) {
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) { field[c] = rough(i, seed); });
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) { field[c] = rough(i, seed); });
 }
 
 template <int Dim>
@@ -95,7 +94,15 @@ double largest_difference(const Grid<Dim>& grid, const CellField& a, const CellF
 /// Integral over the owned cells.
 template <int Dim>
 double integral(const Grid<Dim>& grid, const CellField& f) {
-  return sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return grid.volume(c) * f[c]; });
+  return sum<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) { return grid.volume(i) * f[c]; });
+}
+
+/// Volumes of the owned cells.
+template <int Dim>
+CellField volumes(const Grid<Dim>& grid) {
+  CellField volume(grid.layout());
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) { volume[c] = grid.volume(i); });
+  return volume;
 }
 
 }  // namespace quicksand::testing

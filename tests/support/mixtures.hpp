@@ -25,7 +25,6 @@ struct Mixture {
         total(d.layout()),
         rho(d.layout()),
         liquid(d.layout()),
-        interfaces(d.layout(), species.size()),
         elements(d.layout()) {}
 
   void update() {
@@ -33,10 +32,9 @@ struct Mixture {
     sum_fractions(domain.grid, phi, total);
     mix_density(domain.grid, species, phi, rho);
     mark_liquid(domain.grid, total, 0.5, liquid);
-    interfaces = Interfaces<Dim>(domain.layout(), species.size());  // tests add species
     reconstruct_interfaces(domain.grid, phi, interfaces);
     mark_bearing_cells(domain.grid, total, elements.bears);
-    find_pressure_elements(domain, species, total, interfaces, elements);
+    find_pressure_elements(domain, species, phi, total, interfaces, elements);
   }
 };
 

@@ -94,8 +94,8 @@ TEST(CoreBoundary, PeriodicSidesComeInPairs) {
   Sides<2> sides = testing::all_sides(planar_grid(4), SideKind::periodic);
   const Domain<2> ring(planar_grid(4), sides);
   EXPECT_TRUE(ring.side_faces(0, 0).empty());
-  EXPECT_EQ(ring.aperture[0][low_face(ring.grid.cell({0, 1}))], 0.25);
-  EXPECT_EQ(ring.aperture[0][low_face(ring.grid.cell({4, 1}))], 0.25);
+  EXPECT_EQ(ring.aperture(0, {0, 1}), 0.25);
+  EXPECT_EQ(ring.aperture(0, {4, 1}), 0.25);
   EXPECT_THROW(Domain<2>(testing::tank_grid(4), sides), InputError);
   sides.at(1, 0).kind = SideKind::no_slip;
   EXPECT_THROW(Domain<2>(planar_grid(4), sides), InputError);
@@ -117,10 +117,10 @@ TEST(CoreBoundary, AperturesAreFaceAreasWhereLiquidCanPass) {
   sides.at(1, 1).kind = SideKind::open;
   const Domain<2> domain(grid, sides);
   for (int j = 0; j < 4; ++j) {
-    EXPECT_EQ(domain.aperture[0][low_face(grid.cell({4, j}))], 0);
-    EXPECT_EQ(domain.aperture[1][low_face(grid.cell({j, 0}))], 0);
-    EXPECT_EQ(domain.aperture[1][low_face(grid.cell({j, 4}))], grid.area(1, {j, 4}));
-    EXPECT_EQ(domain.aperture[0][low_face(grid.cell({2, j}))], grid.area(0, {2, j}));
+    EXPECT_EQ(domain.aperture(0, {4, j}), 0);
+    EXPECT_EQ(domain.aperture(1, {j, 0}), 0);
+    EXPECT_EQ(domain.aperture(1, {j, 4}), grid.area(1, {j, 4}));
+    EXPECT_EQ(domain.aperture(0, {2, j}), grid.area(0, {2, j}));
   }
 }
 
@@ -148,7 +148,7 @@ TEST(CoreBoundary, InflowBringsItsProfile) {
     EXPECT_EQ(u[1][grid.cell({-2, j})], 0);
     EXPECT_EQ(domain.beyond[grid.cell({-1, j})], Beyond::inflow);
     EXPECT_EQ(domain.beyond[grid.cell({8, j})], Beyond::nothing);
-    EXPECT_GT(domain.aperture[0][low_face(grid.cell({0, j}))], 0);
+    EXPECT_GT(domain.aperture(0, {0, j}), 0);
   }
 }
 

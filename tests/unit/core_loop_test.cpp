@@ -25,8 +25,7 @@ void expect_every_point_once(const Layout<Dim>& layout) {
   CellField plain(layout), indexed(layout), coloured(layout);
   const Box<Dim> box = owned(layout);
   for_each<Cell>(layout, box, [&](Cell c) { plain[c] += 1; });
-  for_each_indexed<Cell>(layout, box,
-                         [&](Cell c, const Index<Dim>& i) { indexed[c] += c.n == layout.flat(i) ? 1 : 5; });
+  for_each<Cell>(layout, box, [&](Cell c, const Index<Dim>& i) { indexed[c] += c.n == layout.flat(i) ? 1 : 5; });
   for_each_coloured<Cell>(layout, box,
                           [&](Cell c, const Index<Dim>& i) { coloured[c] += c.n == layout.flat(i) ? 1 : 5; });
   for (std::ptrdiff_t n = 0; n < layout.size(); ++n) {
@@ -101,7 +100,7 @@ TEST(CoreLoop, EmptyBoxesAreNotVisited) {
   const Box<2> inverted{{4, 0}, {0, 4}};
   for (const Box<2>& box : {flat, inverted}) {
     for_each<Cell>(plane, box, [&](Cell) { ++visits; });
-    for_each_indexed<Cell>(plane, box, [&](Cell, const Index<2>&) { ++visits; });
+    for_each<Cell>(plane, box, [&](Cell, const Index<2>&) { ++visits; });
     for_each_coloured<Cell>(plane, box, [&](Cell, const Index<2>&) { ++visits; });
     EXPECT_EQ(sum<Cell>(plane, box, [](Cell) { return 1.0; }), 0);
   }
@@ -141,7 +140,7 @@ TEST(CoreLoop, ColouredScatterRoundRingsHasNoRaces) {
 
 TEST(CoreLoop, SumsDoNotDependOnTheNumberOfThreads) {
   CellField f(space);
-  for_each_indexed<Cell>(space, owned(space), [&](Cell c, const Index<3>& i) { f[c] = testing::rough(i, 2); });
+  for_each<Cell>(space, owned(space), [&](Cell c, const Index<3>& i) { f[c] = testing::rough(i, 2); });
   const auto total = [&](int n) {
     const Threads threads(n);
     return sum<Cell>(space, owned(space), [&](Cell c) { return f[c]; });

@@ -184,7 +184,7 @@ TEST(Snapshot, TakesOwnedCellsInFileOrder) {
   const Grid<3> grid({{{0, 1, 2}, {0, 1, 2, 3}, {0, 1, 2}}}, Geometry::cartesian);
   CellField field(grid.layout(), -1);
   CellVectors<3> u(grid.layout(), -1);
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<3>& i) {
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<3>& i) {
     field[c] = i[0] + 10 * i[1] + 100 * i[2];
     for (int d = 0; d < 3; ++d) u[d][c] = i[d];
   });

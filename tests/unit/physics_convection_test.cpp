@@ -16,7 +16,7 @@ template <int Dim>
 struct Convection {
   Mixture<Dim>& mixture;
   CellVectors<Dim> u, acceleration, momentum;
-  FaceVelocities<Dim> faces;
+  FaceScalars<Dim> u_mac;
   ConvectionWork<Dim> work;
   Fractions phi_tilde;
   std::vector<double> escaped;
@@ -26,7 +26,7 @@ struct Convection {
         u(m.domain.layout()),
         acceleration(m.domain.layout()),
         momentum(m.domain.layout()),
-        faces(m.domain.layout()),
+        u_mac(m.domain.layout()),
         work(m.domain.layout()),
         phi_tilde(m.phi),
         escaped(m.species.size(), 0.0) {}
@@ -38,12 +38,12 @@ struct Convection {
     const Domain<Dim>& domain = mixture.domain;
     fill_velocity_ghosts(domain, u);
     fill_acceleration_ghosts(domain.grid, domain.sides, acceleration);
-    predict_velocities(domain, input(), dt, work, faces);
-    MacProjectionWork<Dim> mac(domain.layout());
-    project_face_velocities(domain, mixture.rho, mixture.liquid, mac.inflow, {{.relative = 1e-12}, Method::automatic},
-                            mac, faces.mac);
-    split_velocities(domain, input(), work, faces);
-    convect(domain, mixture.species, input(), dt, faces, work, phi_tilde, momentum, escaped);
+    predict_velocities(domain, input(), dt, work, u_mac);
+    const CellField inflow(domain.layout());
+    CellField potential(domain.layout());
+    project_face_velocities(domain, mixture.rho, mixture.liquid, inflow, {{.relative = 1e-12}, Method::automatic},
+                            potential, u_mac);
+    convect(domain, mixture.species, input(), dt, u_mac, work, phi_tilde, momentum, escaped);
   }
   double least_fraction() const {
     double least = 1;
@@ -62,7 +62,7 @@ void in_rough_motion(Domain<Dim> domain, const Vec<Dim>& centre, Test&& test) {
   Mixture<Dim> mixture = testing::ball(d, testing::liquid_species(2), centre, 0.35);
   mixture.species.push_back(testing::liquid_species(1));
   mixture.phi.push_back(mixture.phi[0]);
-  for_each_indexed<Cell>(d.layout(), d.grid.cells(), [&](Cell c, const Index<Dim>& i) {
+  for_each<Cell>(d.layout(), d.grid.cells(), [&](Cell c, const Index<Dim>& i) {
     const double share = 0.5 + 0.5 * testing::rough(i, 9);
     mixture.phi[0][c] *= share;
     mixture.phi[1][c] *= 1 - share;

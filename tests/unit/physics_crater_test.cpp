@@ -20,7 +20,7 @@ CellField bed_below(const Grid<Dim>& grid, const std::function<double(const Vec<
   constexpr int samples = 32;
   constexpr int up = Dim - 1;
   CellField phi(grid.layout());
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
     const double low = grid.face_position(up, i[up]);
     double total = 0;
     const int points = Dim == 2 ? samples : samples * samples;
@@ -68,7 +68,7 @@ TEST(BedProfile, PlanesAreExactOnUnevenGrids) {
 TEST(BedProfile, SprayAndSuspensionDoNotCount) {
   const Domain<2> domain = plane(16, 32, 0, SideKind::no_slip);
   CellField phi = bed_below<2>(domain.grid, [](const Vec<2>&) { return 0.25; });
-  for_each_indexed<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c, const Index<2>& i) {
+  for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c, const Index<2>& i) {
     if (i[1] >= 10) phi[c] = 0.02 + (i[0] % 2 ? 0.3 : 0.0);
     if (i[0] >= 4 && i[0] < 8 && i[1] >= 20 && i[1] < 24) phi[c] = 1;  // a blob in the air
   });
@@ -80,7 +80,7 @@ TEST(BedProfile, SprayAndSuspensionDoNotCount) {
 TEST(BedProfile, CavitiesAndOverhangs) {
   const Domain<2> domain = plane(16, 32, 0, SideKind::no_slip);
   CellField phi = bed_below<2>(domain.grid, [](const Vec<2>&) { return 0.5; });
-  for_each_indexed<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c, const Index<2>& i) {
+  for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c, const Index<2>& i) {
     if (i[0] >= 4 && i[0] < 8 && i[1] >= 8 && i[1] < 12) phi[c] = 0;  // a cavity with a roof
     if (i[0] >= 10 && i[1] == 6) phi[c] = 0.2;                        // a gap of one cell
   });

@@ -20,7 +20,7 @@ constexpr double eps = 0.95;
 CellField draw(const Grid<2>& grid, const std::vector<std::string>& picture) {
   CellField total(grid.layout());
   const int rows = static_cast<int>(picture.size());
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<2>& i) {
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<2>& i) {
     const char sign = picture[static_cast<std::size_t>(rows - 1 - i[1])][static_cast<std::size_t>(i[0])];
     total[c] = sign == '#' ? 1 : sign == ' ' ? 0 : (sign - '0') / 10.0;
   });
@@ -51,7 +51,7 @@ struct Scene {
   int add_bubble(int from, int to, double pressure, double exponent = 1.4) {
     const int id = ++gas.last_id;
     gas.bubbles.push_back({.id = id, .exponent = exponent, .pressure = pressure});
-    for_each_indexed<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c, const Index<2>& i) {
+    for_each<Cell>(domain.layout(), domain.grid.cells(), [&](Cell c, const Index<2>& i) {
       if (i[0] >= from && i[0] < to && total[c] < 0.5) gas.region[c] = id;
     });
     return id;
@@ -176,7 +176,7 @@ TEST(GasRegions, SplitKeepsPressureAndGas) {
 TEST(GasRegions, FilmThinnerThanHalfACellNeitherSplitsNorVents) {
   Scene s({"   ", "###", "# #", "# #", "# #", "###"}, true);
   const int id = s.add_bubble(1, 2, 3);
-  for_each_indexed<Cell>(s.domain.layout(), s.domain.grid.cells(), [&](Cell c, const Index<2>& i) {
+  for_each<Cell>(s.domain.layout(), s.domain.grid.cells(), [&](Cell c, const Index<2>& i) {
     if (i[1] == 5) s.gas.region[c] = open_air;
   });
   s.start();
@@ -213,7 +213,7 @@ TEST(GasRegions, MergeConservesGasAndEnergy) {
 TEST(GasRegions, VentAndCloseAgain) {
   Scene s({"     ", "#####", "#   #", "#####"}, true);
   const int id = s.add_bubble(0, 5, 3);
-  for_each_indexed<Cell>(s.domain.layout(), s.domain.grid.cells(), [&](Cell c, const Index<2>& i) {
+  for_each<Cell>(s.domain.layout(), s.domain.grid.cells(), [&](Cell c, const Index<2>& i) {
     if (i[1] == 3) s.gas.region[c] = open_air;
   });
   s.start();

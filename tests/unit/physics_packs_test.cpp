@@ -55,7 +55,7 @@ struct LongRow {
         work(domain, mixture.species) {
     work.acquire(domain.layout());
     const Grid<Dim>& g = domain.grid;
-    for_each_indexed<Cell>(domain.layout(), g.cells(), [&](Cell c, const Index<Dim>& i) {
+    for_each<Cell>(domain.layout(), g.cells(), [&](Cell c, const Index<Dim>& i) {
       const bool hole = testing::rough(i, 5) > 0.85;
       const double where = 3.0 * i[0] / n;
       for (std::size_t s = 0; s < 3; ++s) {

@@ -40,7 +40,7 @@ template <int Dim>
 void expect_rest(const Domain<Dim>& domain, double interface, double surface) {
   const Grid<Dim>& grid = domain.grid;
   Mixture<Dim> mixture(domain, {testing::liquid_species(2), testing::liquid_species(1)});
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
     mixture.phi[0][c] = filled_below(grid, i, interface);
     mixture.phi[1][c] = filled_below(grid, i, surface) - mixture.phi[0][c];
   });
@@ -72,14 +72,14 @@ TEST(PhysicsPressureElements, SlopesOfASurfacePushWithTheExactForce) {
   for (const double filling : {0.3, 0.5, 0.8}) {
     constexpr double slope = 1e-4;
     Mixture<2> mixture(domain, {testing::liquid_species(1.3)});
-    for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<2>& i) {
+    for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<2>& i) {
       const double height = filling * grid.width_1d(1, 0) + slope * (grid.centre(i)[0] - 0.5);
       mixture.phi[0][c] = filled_below(grid, i, height);
     });
     mixture.update();
     // Hydrostatic pressure on the floor; on all other nodes that of the gas.
     NodeField pressure(domain.layout());
-    for_each_indexed<Node>(domain.layout(), grid.nodes(), [&](Node n, const Index<2>& i) {
+    for_each<Node>(domain.layout(), grid.nodes(), [&](Node n, const Index<2>& i) {
       if (i[1] == 0) {
         pressure[n] = 1.3 * 3 * (filling * grid.width_1d(1, 0) + slope * (grid.face_position(0, i[0]) - 0.5));
       }
@@ -96,7 +96,7 @@ void expect_no_force_on_the_whole(const Mixture<Dim>& mixture) {
   const Domain<Dim>& domain = mixture.domain;
   const Grid<Dim>& grid = domain.grid;
   NodeField pressure(domain.layout());
-  for_each_indexed<Node>(domain.layout(), grid.nodes(), [&](Node n, const Index<Dim>& i) {
+  for_each<Node>(domain.layout(), grid.nodes(), [&](Node n, const Index<Dim>& i) {
     pressure[n] = mixture.elements.free[n] ? testing::rough(i, 1) : 0.0;
   });
   CellVectors<Dim> a(domain.layout());
@@ -120,7 +120,7 @@ TEST(PhysicsPressureElements, FilmsAboveBearPressureAndGapsDoNot) {
   const Grid<2>& grid = domain.grid;
   const auto bears = [&](double row_filling, bool liquid_above) {
     Mixture<2> mixture(domain, {testing::liquid_species(1)});
-    for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<2>& i) {
+    for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<2>& i) {
       mixture.phi[0][c] = i[1] < 3 || (i[1] > 3 && liquid_above) ? 1 : i[1] == 3 ? row_filling : 0;
     });
     mixture.update();

@@ -33,7 +33,7 @@ Flow<Dim> bubbly_flow(Grid<Dim> grid) {
   state.gas.bubbles.push_back({.id = id, .exponent = 1.3, .pressure = 5});
   const double h = 1.0 / grid.owned_cells()[0];
   const auto below = [&](double height) { return std::clamp(height / h + 0.5, 0.0, 1.0); };
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
     const Vec<Dim> x = grid.centre(i);
     Vec<Dim> middle;
     middle[Dim - 1] = 0.3;

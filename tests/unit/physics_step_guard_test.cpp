@@ -31,8 +31,8 @@ struct Fault {
 };
 
 const Fault faults[] = {
-    {"predicted velocities", 1, [](StepInProgress<2> s, Cell c) { s.face_velocities->mac[1][low_face(c)] = nan; }},
-    {"projected velocities", 2, [](StepInProgress<2> s, Cell c) { s.face_velocities->mac[1][low_face(c)] = nan; }},
+    {"predicted velocities", 1, [](StepInProgress<2> s, Cell c) { (*s.u_mac)[1][low_face(c)] = nan; }},
+    {"projected velocities", 2, [](StepInProgress<2> s, Cell c) { (*s.u_mac)[1][low_face(c)] = nan; }},
     {"convected fractions", 3, [](StepInProgress<2> s, Cell c) { s.next.phi[0][c] = nan; }},
     {"convected momentum", 3, [](StepInProgress<2> s, Cell c) { s.momentum_tilde[0][c] = nan; }},
     {"infinite momentum", 3, [](StepInProgress<2> s, Cell c) { s.momentum_tilde[1][c] = -INFINITY; }},

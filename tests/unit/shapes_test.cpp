@@ -29,8 +29,7 @@ Grid<3> cube(int n = 9) {
 template <int Dim>
 double volume(const Shape& shape, const Grid<Dim>& grid) {
   CellField phi(grid.layout());
-  for_each_indexed<Cell>(grid.layout(), grid.cells(),
-                         [&](Cell c, const Index<Dim>& i) { phi[c] = fraction(shape, grid, i); });
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) { phi[c] = fraction(shape, grid, i); });
   const auto outside = [&](Cell c) { return phi[c] < 0 || phi[c] > 1 ? 1.0 : 0.0; };
   EXPECT_EQ(sum<Cell>(grid.layout(), grid.cells(), outside), 0);
   return sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return phi[c] * grid.volume(c); });
@@ -99,7 +98,7 @@ TEST(Shapes, Waves) {
 TEST(Shapes, CellsOnAFaceAreFullOrEmpty) {
   const Grid<2> grid({uniform(0, 0.5, 16), uniform(0, 1.5, 48)}, Geometry::axisymmetric);
   const Shape slug = CylinderShape{Vec<3>{{0, 0, 0}}, 0.25, 1};
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell, const Index<2>& i) {
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell, const Index<2>& i) {
     EXPECT_EQ(fraction(slug, grid, i), i[0] < 8 && i[1] < 32 ? 1.0 : 0.0);
   });
 }

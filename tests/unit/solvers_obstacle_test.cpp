@@ -8,6 +8,7 @@
 #include "core/errors.hpp"
 #include "solvers/conjugate_gradients.hpp"
 #include "solvers/obstacle.hpp"
+#include "support/grids.hpp"
 #include "unit/solvers_problems.hpp"
 
 namespace quicksand {
@@ -45,9 +46,9 @@ struct Problem {
   /// H = 0 on the faces of the high side of the last axis.
   void open_top() {
     constexpr int d = Dim - 1;
-    for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
+    for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
       if (i[d] == grid.owned_cells()[d] - 1) {
-        matrix.diagonal[c] += 2 * grid.area(d, i) / grid.width(d, c);
+        matrix.diagonal[c] += 2 * grid.area(d, i) / grid.width_1d(d, i[d]);
       }
     });
   }
@@ -55,7 +56,7 @@ struct Problem {
   ObstacleReport solve(double tolerance = 1e-9) {
     ObstacleOptions options;
     options.tolerance = tolerance;
-    return solve_obstacle(matrix, b, grid.volumes(), H, options);
+    return solve_obstacle(matrix, b, testing::volumes(grid), H, options);
   }
 
   /// 1/2 H^T A H - b^T H of any field.
@@ -248,7 +249,8 @@ TEST(Obstacle, SaysWhenItDoesNotConverge) {
   Problem<2> problem(unit_square(64), disc(64, 2));
   ObstacleOptions options;
   options.max_iterations = 1;
-  EXPECT_THROW(solve_obstacle(problem.matrix, problem.b, problem.grid.volumes(), problem.H, options), NumericalError);
+  EXPECT_THROW(solve_obstacle(problem.matrix, problem.b, testing::volumes(problem.grid), problem.H, options),
+               NumericalError);
   problem.b[problem.grid.cell(Index<2>{{5, 5}})] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(problem.solve(), NumericalError);
 }

@@ -7,6 +7,7 @@
 #include "solvers/linear_solver.hpp"
 #include "solvers/multigrid.hpp"
 #include "solvers/obstacle.hpp"
+#include "support/grids.hpp"
 #include "unit/solvers_problems.hpp"
 
 namespace quicksand {
@@ -67,11 +68,11 @@ void expect_products_shift(const StencilMatrix<Dim, At>& matrix, const Index<Dim
     for (int d = 0; d < Dim; ++d) i[d] += shift[d];
     return At{matrix.layout.flat(matrix.layout.image(i))};
   };
-  for_each_indexed<At>(matrix.layout, matrix.box, [&](At p, const Index<Dim>& i) { there[shifted(i)] = x[p]; });
+  for_each<At>(matrix.layout, matrix.box, [&](At p, const Index<Dim>& i) { there[shifted(i)] = x[p]; });
   matrix.apply(x, Ax);
   matrix.apply(there, At_);
-  for_each_indexed<At>(matrix.layout, matrix.box,
-                       [&](At p, const Index<Dim>& i) { EXPECT_NEAR(At_[shifted(i)], Ax[p], 1e-11); });
+  for_each<At>(matrix.layout, matrix.box,
+               [&](At p, const Index<Dim>& i) { EXPECT_NEAR(At_[shifted(i)], Ax[p], 1e-11); });
 }
 
 TEST(SolversPeriodic, ProductsShiftWithTheirOperands) {
@@ -172,13 +173,13 @@ TEST(SolversPeriodic, ExcessSpreadsAcrossTheEnds) {
     const auto matrix = cell_laplacian(grid, everywhere);
     const auto solved = [&](int shift) {
       CellField b(grid.layout()), H(grid.layout());
-      for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, Index<2> i) {
+      for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, Index<2> i) {
         i[0] -= shift;
         i = grid.layout().image(i);
         const double distance = std::hypot(i[0] - 20, i[1] - 12);
         b[c] = (distance < 4 ? 0.8 : distance < 6 ? -0.05 : -0.4) * grid.volume(c);
       });
-      const ObstacleReport report = solve_obstacle(matrix, b, grid.volumes(), H);
+      const ObstacleReport report = solve_obstacle(matrix, b, testing::volumes(grid), H);
       EXPECT_LE(report.violation, 1e-9);
       EXPECT_LE(report.iterations, 12);
       return H;
@@ -186,7 +187,7 @@ TEST(SolversPeriodic, ExcessSpreadsAcrossTheEnds) {
     const CellField middle = solved(0);
     const CellField ends = solved(19);
     const double height = maximum<Cell>(grid.layout(), grid.cells(), 0, [&](Cell c) { return middle[c]; });
-    for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, Index<2> i) {
+    for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, Index<2> i) {
       i[0] += 19;
       EXPECT_NEAR(ends[Cell{grid.layout().flat(grid.layout().image(i))}], middle[c], 1e-6 * height);
     });

@@ -37,15 +37,17 @@ StencilMatrix<Dim, Cell> cell_laplacian(const Grid<Dim>& grid, Inside&& inside, 
       below[d] = grid.layout().image(d, i[d] - 1);
       const Cell low = grid.cell(below);
       const double area = grid.area(d, i);
-      const double weight = area * 2 / (grid.width(d, low) + grid.width(d, high));
+      const double width_low = grid.width_1d(d, below[d]);
+      const double width_high = grid.width_1d(d, i[d]);
+      const double weight = area * 2 / (width_low + width_high);
       if (inside(i) && inside(below)) {
         matrix.lower[static_cast<std::size_t>(d)][high] = -weight;
         matrix.diagonal[low] += weight;
         matrix.diagonal[high] += weight;
       } else if (inside(i)) {
-        matrix.diagonal[high] += dirichlet_on_faces ? 2 * area / grid.width(d, high) : weight;
+        matrix.diagonal[high] += dirichlet_on_faces ? 2 * area / width_high : weight;
       } else if (inside(below)) {
-        matrix.diagonal[low] += dirichlet_on_faces ? 2 * area / grid.width(d, low) : weight;
+        matrix.diagonal[low] += dirichlet_on_faces ? 2 * area / width_low : weight;
       }
     });
   }
@@ -108,7 +110,7 @@ StencilMatrix<Dim, Node> node_laplacian(const Grid<Dim>& grid, Inside&& inside) 
 template <int Dim, class At>
 Field<At> rough_field(const StencilMatrix<Dim, At>& matrix) {
   Field<At> b(matrix.layout);
-  for_each_indexed<At>(matrix.layout, matrix.box, [&](At p, const Index<Dim>& i) {
+  for_each<At>(matrix.layout, matrix.box, [&](At p, const Index<Dim>& i) {
     double phase = 1;
     for (int d = 0; d < Dim; ++d) phase += (12.9898 + 65.1 * d) * i[d];
     const double s = std::sin(phase) * 43758.5453;

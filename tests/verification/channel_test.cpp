@@ -31,11 +31,9 @@ std::string axis(double from, double to, int cells) {
 template <int Dim, class Exact>
 double largest_error(const Flow<Dim>& flow, int component, Exact&& exact) {
   const Grid<Dim>& grid = flow.domain().grid;
-  double error = 0;
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
-    error = std::max(error, std::abs(flow.state().u[component][c] - exact(grid.centre(i))));
+  return maximum<Cell>(grid.layout(), grid.cells(), 0.0, [&](Cell c, const Index<Dim>& i) {
+    return std::abs(flow.state().u[component][c] - exact(grid.centre(i)));
   });
-  return error;
 }
 
 TEST(Channel, PressureDrivesAPlug) {

@@ -34,7 +34,7 @@ template <int Dim>
 Flow<Dim> shifted(const Flow<Dim>& flow, const Index<Dim>& shift) {
   Flow<Dim> other(flow.domain(), flow.parameters());
   const Layout<Dim>& layout = flow.domain().layout();
-  for_each_indexed<Cell>(layout, flow.domain().grid.cells(), [&](Cell c, Index<Dim> i) {
+  for_each<Cell>(layout, flow.domain().grid.cells(), [&](Cell c, Index<Dim> i) {
     for (int d = 0; d < Dim; ++d) i[d] += shift[d];
     const Cell to{layout.flat(layout.image(i))};
     for (std::size_t s = 0; s < flow.state().phi.size(); ++s) other.state().phi[s][to] = flow.state().phi[s][c];
@@ -47,16 +47,15 @@ Flow<Dim> shifted(const Flow<Dim>& flow, const Index<Dim>& shift) {
 /// Largest difference of fractions and momenta; `place` says where a cell of `a` lies in `b`.
 template <int Dim, class Place>
 double difference(const Flow<Dim>& a, const Flow<Dim>& b, Place&& place) {
-  double largest = 0;
-  for_each_indexed<Cell>(a.domain().layout(), a.domain().grid.cells(), [&](Cell c, const Index<Dim>& i) {
+  return maximum<Cell>(a.domain().layout(), a.domain().grid.cells(), 0.0, [&](Cell c, const Index<Dim>& i) {
     const Cell there = b.domain().grid.cell(place(i));
-    largest = std::max(largest, std::abs(a.total()[c] - b.total()[there]));
+    double largest = std::abs(a.total()[c] - b.total()[there]);
     for (int d = 0; d < Dim; ++d) {
       const double momentum = a.density()[c] * a.state().u[d][c];
       largest = std::max(largest, std::abs(momentum - b.density()[there] * b.state().u[d][there]));
     }
+    return largest;
   });
-  return largest;
 }
 
 template <int Dim>
@@ -257,7 +256,7 @@ TEST(Periodic, GravityAlongAChannelDrivesTheParabola) {
   Flow<2> flow = build_flow<2>(config);
   for (int k = 0; k < 500; ++k) flow.advance(0.09);  // CFL number 0.9 at the end
   const Grid<2>& grid = flow.domain().grid;
-  for_each_indexed<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<2>& i) {
+  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c, const Index<2>& i) {
     const double z = grid.centre(i)[1];
     EXPECT_NEAR(flow.state().u[0][c], 10 * z * (1 - z), 1e-8);
     EXPECT_NEAR(flow.state().u[1][c], 0, 1e-8);

@@ -43,8 +43,8 @@ Wave slosh(const CaseConfig& config, Mode&& mode) {
   Flow<2> flow = build_flow<2>(config);
   const Grid<2>& grid = flow.domain().grid;
   CellField weight(grid.layout());
-  for_each_indexed<Cell>(grid.layout(), grid.cells(),
-                         [&](Cell c, const Index<2>& i) { weight[c] = grid.volume(c) * mode(grid.centre(i)[0]); });
+  for_each<Cell>(grid.layout(), grid.cells(),
+                 [&](Cell c, const Index<2>& i) { weight[c] = grid.volume(c) * mode(grid.centre(i)[0]); });
   const double square =
       sum<Cell>(grid.layout(), grid.cells(), [&](Cell c) { return weight[c] * weight[c] / grid.volume(c); }) /
       (grid.global_faces(1).back() - grid.global_faces(1).front());

@@ -81,18 +81,17 @@ double difference(const CaseConfig& a_case, const CaseConfig& b_case, Map&& plac
     return true;
   });
   EXPECT_GT(diagnose(a).max_speed, 0.05);
-  double largest = 0;
-  for_each_indexed<Cell>(a.domain().layout(), a.domain().grid.cells(), [&](Cell c, const Index<DimA>& i) {
+  return maximum<Cell>(a.domain().layout(), a.domain().grid.cells(), 0.0, [&](Cell c, const Index<DimA>& i) {
     const Place<DimB> place = place_of(i);
     const Cell there = b.domain().grid.cell(place.index);
-    largest = std::max(largest, std::abs(a.total()[c] - b.total()[there]));
+    double largest = std::abs(a.total()[c] - b.total()[there]);
     for (int d = 0; d < DimA; ++d) {
       const double here = a.total()[c] * a.state().u[d][c];
       const double other = b.total()[there] * b.state().u[place.component[d]][there];
       largest = std::max(largest, std::abs(here - place.sign[d] * other));
     }
+    return largest;
   });
-  return largest;
 }
 
 TEST(Symmetry, ASymmetricFlowStaysSymmetric) {
