@@ -98,7 +98,7 @@ struct TwoSided {
 /// Splits the projected velocity of a face, two-sided at faces that are not inside D.
 template <int Dim>
 TwoSided split_velocity(const Domain<Dim>& domain, const ConvectionInput<Dim>& in,
-                        const Reconstruction<Dim>& reconstruction, const ConvectionWork<Dim>& work, double mac, Face f,
+                        const Reconstruction<Dim>& reconstruction, const CellVectors<Dim>& u_half, double mac, Face f,
                         const Index<Dim>& i, int d) {
   const Cell high = high_cell(f);
   const Cell low = high - domain.grid.step(d);
@@ -107,11 +107,11 @@ TwoSided split_velocity(const Domain<Dim>& domain, const ConvectionInput<Dim>& i
   const bool given = on_inflow(domain, low, high);
   // A gas-side cell gives with its own velocity; into liquid at least as fast as the liquid recedes.
   if (!in.liquid[low] && !given) {
-    const double own = reconstruction.from_low(work.u_half[d], in.u[d], f, i, d);
+    const double own = reconstruction.from_low(u_half[d], in.u[d], f, i, d);
     up = in.liquid[high] ? std::max(mac, own) : own;
   }
   if (!in.liquid[high] && !given) {
-    const double own = reconstruction.from_high(work.u_half[d], in.u[d], f, i, d);
+    const double own = reconstruction.from_high(u_half[d], in.u[d], f, i, d);
     down = in.liquid[low] ? std::min(mac, own) : own;
   }
   return {std::max(up, 0.0), std::min(down, 0.0)};
@@ -130,7 +130,7 @@ struct VolumeFluxes {
 /// of it. Where those were limited species i makes up for them, so that liquid stays full.
 template <int Dim>
 void store_volume_fluxes(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, const FaceScalars<Dim>& u_mac,
-                         const ConvectionWork<Dim>& work, double dt, std::size_t i, VolumeFluxes<Dim>& flux) {
+                         const CellVectors<Dim>& u_half, double dt, std::size_t i, VolumeFluxes<Dim>& flux) {
   const Reconstruction<Dim> reconstruction(domain.grid, in.total);
   const std::size_t whole = in.phi.size() - 1;
   const auto swept = [&](Cell c, const Index<Dim>& at, int d, int side, double velocity) {
@@ -144,7 +144,7 @@ void store_volume_fluxes(const Domain<Dim>& domain, const ConvectionInput<Dim>& 
     for_each<Face>(domain.layout(), domain.grid.faces(d), [&](Face f, const Index<Dim>& at) {
       const Cell high = high_cell(f);
       const Cell low = high - domain.grid.step(d);
-      const auto [up, down] = split_velocity(domain, in, reconstruction, work, u_mac[d][f], f, at, d);
+      const auto [up, down] = split_velocity(domain, in, reconstruction, u_half, u_mac[d][f], f, at, d);
       const double area = domain.aperture(d, at);
       double from_low = up > 0 ? area * swept(low, shifted(at, d, -1), d, 1, up) : 0.0;
       double from_high = down < 0 ? area * swept(high, at, d, -1, down) : 0.0;
@@ -199,16 +199,15 @@ double outflow_through_sides(const Domain<Dim>& domain, const FaceScalars<Dim>& 
 }  // namespace
 
 template <int Dim>
-void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, double dt, ConvectionWork<Dim>& work,
+void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, double dt, CellVectors<Dim>& u_half,
                         FaceScalars<Dim>& u_mac) {
   const Grid<Dim>& grid = domain.grid;
   const Reconstruction<Dim> reconstruction(grid, in.total);
   for (int e = 0; e < Dim; ++e) {
     for_each<Cell>(domain.layout(), grow(grid.cells(), 1), [&](Cell c, const Index<Dim>& i) {
       const double a = reconstruction.ballistic(c) ? 0 : in.acceleration[e][c];
-      work.u_half[e][c] = in.u[e][c] + 0.5 * dt * a + advect_half(in.u, c, dt, [&](int d) {
-                            return reconstruction.velocity_slope(in.u[e], c, i, d);
-                          });
+      u_half[e][c] = in.u[e][c] + 0.5 * dt * a +
+                     advect_half(in.u, c, dt, [&](int d) { return reconstruction.velocity_slope(in.u[e], c, i, d); });
     });
   }
   for_each_axis<Dim>([&](auto d) {
@@ -216,8 +215,8 @@ void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& i
       const Cell high = high_cell(f);
       const Cell low = high - grid.step(d);
       u_mac[d][f] = domain.passes(d, i)
-                        ? upwind(reconstruction.from_low(work.u_half[d], in.u[d], f, i, d),
-                                 reconstruction.from_high(work.u_half[d], in.u[d], f, i, d), in.rho[low], in.rho[high],
+                        ? upwind(reconstruction.from_low(u_half[d], in.u[d], f, i, d),
+                                 reconstruction.from_high(u_half[d], in.u[d], f, i, d), in.rho[low], in.rho[high],
                                  in.total[low] < empty_fraction, in.total[high] < empty_fraction)
                         : 0.0;
     });
@@ -227,12 +226,12 @@ void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& i
 
 template <int Dim>
 void convect(const Domain<Dim>& domain, const std::vector<Species>& species, const ConvectionInput<Dim>& in, double dt,
-             const FaceScalars<Dim>& u_mac, const ConvectionWork<Dim>& work, Fractions& phi_tilde,
+             const FaceScalars<Dim>& u_mac, const CellVectors<Dim>& u_half, Fractions& phi_tilde,
              CellVectors<Dim>& momentum_tilde, std::vector<double>& escaped) {
   const Grid<Dim>& grid = domain.grid;
   VolumeFluxes<Dim> flux(domain.layout(), species.size());
   for (std::size_t i = 0; i < species.size(); ++i) {
-    store_volume_fluxes(domain, in, u_mac, work, dt, i, flux);
+    store_volume_fluxes(domain, in, u_mac, u_half, dt, i, flux);
     FaceScalars<Dim>& low = flux.low[i];
     FaceScalars<Dim>& high = flux.high[i];
     limit_outflow(domain, in.phi[i], dt, low, high);
@@ -267,10 +266,10 @@ void convect(const Domain<Dim>& domain, const std::vector<Species>& species, con
     }
     for (int e = 0; e < Dim; ++e) {
       const CellField& u = in.u[e];
-      const CellField& u_half = work.u_half[e];
+      const CellField& half = u_half[e];
       for_each<Face>(layout, grid.faces(d), [&](Face f, const Index<Dim>& i) {
-        momentum_flux[f] = mass_low[f] * reconstruction.from_low(u_half, u, f, i, d) +
-                           mass_high[f] * reconstruction.from_high(u_half, u, f, i, d);
+        momentum_flux[f] = mass_low[f] * reconstruction.from_low(half, u, f, i, d) +
+                           mass_high[f] * reconstruction.from_high(half, u, f, i, d);
       });
       for_each<Cell>(layout, grid.cells(), [&](Cell c, const Index<Dim>& i) {
         const Face below = low_face(c);
@@ -288,11 +287,11 @@ void convect(const Domain<Dim>& domain, const std::vector<Species>& species, con
   });
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                                \
-  template void predict_velocities(const Domain<Dim>&, const ConvectionInput<Dim>&, double, ConvectionWork<Dim>&, \
-                                   FaceScalars<Dim>&);                                                            \
-  template void convect(const Domain<Dim>&, const std::vector<Species>&, const ConvectionInput<Dim>&, double,     \
-                        const FaceScalars<Dim>&, const ConvectionWork<Dim>&, Fractions&, CellVectors<Dim>&,       \
+#define QUICKSAND_INSTANTIATE(Dim)                                                                             \
+  template void predict_velocities(const Domain<Dim>&, const ConvectionInput<Dim>&, double, CellVectors<Dim>&, \
+                                   FaceScalars<Dim>&);                                                         \
+  template void convect(const Domain<Dim>&, const std::vector<Species>&, const ConvectionInput<Dim>&, double,  \
+                        const FaceScalars<Dim>&, const CellVectors<Dim>&, Fractions&, CellVectors<Dim>&,       \
                         std::vector<double>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)

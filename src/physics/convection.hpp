@@ -26,17 +26,10 @@ struct ConvectionInput {
   const Interfaces<Dim>& interfaces;     ///< planes of phi
 };
 
-/// Work arrays of the convection phase.
+/// Normal face velocities at half time from both sides, upwinded into u_mac; also the half-time cell velocities u_half,
+/// one ghost layer.
 template <int Dim>
-struct ConvectionWork {
-  CellVectors<Dim> u_half;  ///< cell velocities at half time
-
-  explicit ConvectionWork(const Layout<Dim>& layout) : u_half(layout) {}
-};
-
-/// Normal face velocities at half time from both sides, upwinded into u_mac; also the half-time cell velocities.
-template <int Dim>
-void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, double dt, ConvectionWork<Dim>& work,
+void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& in, double dt, CellVectors<Dim>& u_half,
                         FaceScalars<Dim>& u_mac);
 
 /// phi~ (44b) and rho~ u~ (44a). Outflow is scaled so that phi~ >= 0.
@@ -44,7 +37,7 @@ void predict_velocities(const Domain<Dim>& domain, const ConvectionInput<Dim>& i
 /// \param escaped  volume that leaves through open sides is added, per species
 template <int Dim>
 void convect(const Domain<Dim>& domain, const std::vector<Species>& species, const ConvectionInput<Dim>& in, double dt,
-             const FaceScalars<Dim>& u_mac, const ConvectionWork<Dim>& work, Fractions& phi_tilde,
+             const FaceScalars<Dim>& u_mac, const CellVectors<Dim>& u_half, Fractions& phi_tilde,
              CellVectors<Dim>& momentum_tilde, std::vector<double>& escaped);
 
 }  // namespace quicksand

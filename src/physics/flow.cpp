@@ -231,9 +231,11 @@ StepReport Flow<Dim>::step(double dt) {
   const Grid<Dim>& grid = domain_.grid;
   const FlowParameters<Dim>& par = parameters_;
   StepReport report;
-  // Both are done with before the fields that they stand in are needed.
+  // Each is done with before the next that stands in the same field, the field's own values last, is written.
+  CellVectors<Dim>& u_half = next_.acceleration;
   CellVectors<Dim>& momentum_tilde = next_.u;
   CellVectors<Dim>& u_bar = next_.acceleration;
+  CellVectors<Dim>& lagged = u_hat_;  // velocity that the lagged pressure gradient gives
   Stopwatch watch;
   const auto clock = [&](Phase phase, FaceScalars<Dim>* u_mac = nullptr) {
     report.seconds[static_cast<std::size_t>(phase)] += watch.lap();
@@ -245,22 +247,18 @@ StepReport Flow<Dim>::step(double dt) {
   multiplier_before_ = diffusion_.multiplier;
   penalty_before_ = diffusion_.penalty;
 
-  CellVectors<Dim> lagged(domain_.layout());
-  add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -1.0, lagged);
+  for (int d = 0; d < Dim; ++d) lagged[d].fill(0);
+  add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -dt, lagged);
   {
     const ConvectionInput<Dim> in{state_.phi, total_, rho_, state_.u, state_.acceleration, liquid_, interfaces_};
-    ConvectionWork<Dim> work(domain_.layout());
     FaceScalars<Dim> u_mac(domain_.layout());
-    predict_velocities(domain_, in, dt, work, u_mac);
+    predict_velocities(domain_, in, dt, u_half, u_mac);
     clock(Phase::convection, &u_mac);
-    {
-      CellField inflow(domain_.layout());
-      find_voids(domain_, total_, liquid_, dt, inflow);
-      report.mac = project_face_velocities(domain_, rho_, liquid_, inflow, par.linear, mac_potential_, u_mac);
-    }
+    report.mac = project_face_velocities(domain_, rho_, liquid_, find_voids(domain_, total_, liquid_, dt), par.linear,
+                                         mac_potential_, u_mac);
     clock(Phase::mac_projection, &u_mac);
     require_finite(grid, u_mac);
-    convect(domain_, par.species, in, dt, u_mac, work, next_.phi, momentum_tilde, escaped);
+    convect(domain_, par.species, in, dt, u_mac, u_half, next_.phi, momentum_tilde, escaped);
   }
   mix_density(grid, par.species, next_.phi, rho_);
   const double energy_tilde = kinetic_energy_of_momentum(grid, rho_, momentum_tilde);
@@ -286,8 +284,8 @@ StepReport Flow<Dim>::step(double dt) {
   report.redistribution_energy_change = kinetic_energy(grid, rho_, u_bar) - energy_tilde;
 
   next_.pressure = state_.pressure;
-  add_uniform(grid.layout(), grid.cells(), u_bar, dt, par.gravity, u_hat_);
-  add_scaled(grid.layout(), grid.cells(), u_hat_, dt, lagged, u_hat_);
+  add_uniform(grid.layout(), grid.cells(), lagged, dt, par.gravity, u_hat_);
+  add_scaled(grid.layout(), grid.cells(), u_bar, 1.0, u_hat_, u_hat_);
   CellVectors<Dim>& u_star = next_.u;
   u_star = u_hat_;
   if (mark_stress_elements(domain_, par.species, next_.phi, total_, diffusion_.elements)) {
@@ -299,8 +297,10 @@ StepReport Flow<Dim>::step(double dt) {
   diffusion_.release();
   clock(Phase::diffusion);
 
-  add_scaled(grid.layout(), grid.cells(), u_star, -dt, lagged, u_star);
-  lagged = {};
+  // Less what is in u_hat besides u-bar and gravity.
+  add_scaled(grid.layout(), grid.cells(), u_star, -1.0, u_hat_, u_star);
+  add_scaled(grid.layout(), grid.cells(), u_star, 1.0, u_bar, u_star);
+  add_uniform(grid.layout(), grid.cells(), u_star, dt, par.gravity, u_star);
   project(dt, report);
   clock(Phase::projection);
   scaled_difference(grid.layout(), grid.cells(), 1 / dt, next_.u, u_bar, next_.acceleration);

@@ -75,19 +75,20 @@ void assemble(const Domain<Dim>& domain, const CellField& rho, const CellMask& l
 }  // namespace
 
 template <int Dim>
-void find_voids(const Domain<Dim>& domain, const CellField& total, const CellMask& liquid, double dt,
-                CellField& inflow) {
+CellField find_voids(const Domain<Dim>& domain, const CellField& total, const CellMask& liquid, double dt) {
+  CellField inflow(domain.layout());
   const Grid<Dim>& grid = domain.grid;
   const bool fill = has_surface(domain, liquid);
   for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
     const bool lacks = fill && total[c] < 1 && total[c] > 1 - largest_void && inside(domain.layout(), liquid, c);
     inflow[c] = lacks ? filled_share * (1 - total[c]) * grid.volume(i) / dt : 0.0;
   });
+  return inflow;
 }
 
 template <int Dim>
 SolveReport project_face_velocities(const Domain<Dim>& domain, const CellField& rho, const CellMask& liquid,
-                                    const CellField& inflow, const SolveOptions& options, CellField& potential,
+                                    CellField inflow, const SolveOptions& options, CellField& potential,
                                     FaceScalars<Dim>& u_mac) {
   const Grid<Dim>& grid = domain.grid;
   const Box<Dim> box = bounding_box<Cell>(domain.layout(), grid.cells(), [&](Cell c) { return liquid[c] != 0; });
@@ -95,17 +96,17 @@ SolveReport project_face_velocities(const Domain<Dim>& domain, const CellField& 
   StencilMatrix<Dim, Cell> matrix(domain.layout(), Stencil::star);
   matrix.box = box;
   assemble(domain, rho, liquid, matrix);
-  CellField divergence(domain.layout());
+  CellField& source = inflow;  // the right-hand side
   for_each<Cell>(domain.layout(), grid.cells(), [&](Cell c, const Index<Dim>& i) {
     double out = 0;
     for (int d = 0; d < Dim; ++d) {
       const Face above = low_face(c + grid.step(d));
       out += domain.aperture(d, shifted(i, d, 1)) * u_mac[d][above] - domain.aperture(d, i) * u_mac[d][low_face(c)];
     }
-    divergence[c] = liquid[c] ? -out - inflow[c] : 0.0;
+    source[c] = liquid[c] ? -out - inflow[c] : 0.0;
     if (!liquid[c]) potential[c] = 0;
   });
-  const SolveReport report = solve(matrix, divergence, potential, options);
+  const SolveReport report = solve(matrix, source, potential, options);
   require_converged(report, "MAC projection");
   wrap(domain.layout(), grid.cells(), potential);
   for_each_axis<Dim>([&](auto d) {
@@ -119,10 +120,10 @@ SolveReport project_face_velocities(const Domain<Dim>& domain, const CellField& 
   return report;
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                     \
-  template void find_voids(const Domain<Dim>&, const CellField&, const CellMask&, double, CellField&); \
-  template SolveReport project_face_velocities(const Domain<Dim>&, const CellField&, const CellMask&,  \
-                                               const CellField&, const SolveOptions&, CellField&, FaceScalars<Dim>&);
+#define QUICKSAND_INSTANTIATE(Dim)                                                                               \
+  template CellField find_voids(const Domain<Dim>&, const CellField&, const CellMask&, double);                  \
+  template SolveReport project_face_velocities(const Domain<Dim>&, const CellField&, const CellMask&, CellField, \
+                                               const SolveOptions&, CellField&, FaceScalars<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)
 #undef QUICKSAND_INSTANTIATE

@@ -14,10 +14,9 @@ namespace quicksand {
 /// cent behind a moving surface; they would go with the liquid for good, and where gas accelerates liquid grow into
 /// fingers. Zero everywhere if there is nothing from where liquid could come: no cell outside D and no open side.
 /// \param total, liquid  sum phi and D, one ghost layer
-/// \param inflow         result, owned cells
+/// \returns              of owned cells
 template <int Dim>
-void find_voids(const Domain<Dim>& domain, const CellField& total, const CellMask& liquid, double dt,
-                CellField& inflow);
+CellField find_voids(const Domain<Dim>& domain, const CellField& total, const CellMask& liquid, double dt);
 
 /// Solves div(1/rho grad q) = div u_mac + inflow / V in D with q = 0 on the border of D, and corrects u_mac on the
 /// faces of D.
@@ -30,7 +29,7 @@ void find_voids(const Domain<Dim>& domain, const CellField& total, const CellMas
 /// \throws NumericalError when the solve does not converge
 template <int Dim>
 SolveReport project_face_velocities(const Domain<Dim>& domain, const CellField& rho, const CellMask& liquid,
-                                    const CellField& inflow, const SolveOptions& options, CellField& potential,
+                                    CellField inflow, const SolveOptions& options, CellField& potential,
                                     FaceScalars<Dim>& u_mac);
 
 }  // namespace quicksand

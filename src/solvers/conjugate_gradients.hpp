@@ -117,7 +117,9 @@ template <class At, int Dim, class Vector, class Apply, class Precondition, clas
     return report;
   }
 
-  Vector r(layout), z(layout), p(layout), q(layout);
+  Vector r(layout), p(layout);
+  Vector z(layout);
+  Vector& q = z;  // neither is there when the other is
   const auto update_residual = [&] {
     apply(x, r);
     combine<At>(layout, box, r, b, [](double& ri, double bi) { ri = bi - ri; });

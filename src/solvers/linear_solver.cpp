@@ -113,7 +113,7 @@ SolveReport solve(const StencilMatrix<Dim, At>& matrix, Preconditioner<Dim, At>&
 }
 
 template <int Dim, class At>
-SolveReport solve(StencilMatrix<Dim, At>& matrix, const Field<At>& b, Field<At>& x, const SolveOptions& options) {
+SolveReport solve(StencilMatrix<Dim, At>& matrix, Field<At>& b, Field<At>& x, const SolveOptions& options) {
   if (matrix.box.empty()) {
     SolveReport nothing;
     nothing.converged = true;
@@ -125,10 +125,9 @@ SolveReport solve(StencilMatrix<Dim, At>& matrix, const Field<At>& b, Field<At>&
   // zero at that point. So is the guess made, lest a good one look bad.
   const At at = first_coupled(matrix);
   subtract(matrix, x[at], x);
-  Field<At> consistent = b;
-  remove_mean(matrix, consistent);
+  remove_mean(matrix, b);
   const Pin<Dim, At> pin(matrix, at);
-  const SolveReport report = solve_definite(matrix, consistent, x, options);
+  const SolveReport report = solve_definite(matrix, b, x, options);
   remove_mean(matrix, x);
   return report;
 }
@@ -141,10 +140,10 @@ void require_converged(const SolveReport& report, std::string_view what) {
   throw NumericalError(message.str());
 }
 
-template SolveReport solve(StencilMatrix<2, Cell>&, const Field<Cell>&, Field<Cell>&, const SolveOptions&);
-template SolveReport solve(StencilMatrix<2, Node>&, const Field<Node>&, Field<Node>&, const SolveOptions&);
-template SolveReport solve(StencilMatrix<3, Cell>&, const Field<Cell>&, Field<Cell>&, const SolveOptions&);
-template SolveReport solve(StencilMatrix<3, Node>&, const Field<Node>&, Field<Node>&, const SolveOptions&);
+template SolveReport solve(StencilMatrix<2, Cell>&, Field<Cell>&, Field<Cell>&, const SolveOptions&);
+template SolveReport solve(StencilMatrix<2, Node>&, Field<Node>&, Field<Node>&, const SolveOptions&);
+template SolveReport solve(StencilMatrix<3, Cell>&, Field<Cell>&, Field<Cell>&, const SolveOptions&);
+template SolveReport solve(StencilMatrix<3, Node>&, Field<Node>&, Field<Node>&, const SolveOptions&);
 
 template SolveReport solve(const StencilMatrix<2, Cell>&, Preconditioner<2, Cell>&, const Field<Cell>&, Field<Cell>&,
                            const Tolerance&);

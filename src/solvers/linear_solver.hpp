@@ -21,11 +21,11 @@ struct SolveOptions : Tolerance {
 /// x is returned with mean zero; the matrix changes meanwhile and is the same on return. When the method does not
 /// converge, SMG and then Jacobi begin from zero; the best x is kept.
 ///
-/// \param b  right-hand side on the box; must be finite
+/// \param b  right-hand side on the box; must be finite. Keeps its values but for a mean that is removed
 /// \param x  on entry the guess; the layer around the box must be zero wherever couplings there are not
 /// \returns  the report; a caller that can't go on without convergence passes it to require_converged()
 template <int Dim, class At>
-[[nodiscard]] SolveReport solve(StencilMatrix<Dim, At>& matrix, const Field<At>& b, Field<At>& x,
+[[nodiscard]] SolveReport solve(StencilMatrix<Dim, At>& matrix, Field<At>& b, Field<At>& x,
                                 const SolveOptions& options = {});
 
 /// The same with a preconditioner that the caller keeps, for matrices that stay; neither fallbacks nor singular

@@ -17,7 +17,7 @@ struct Convection {
   Mixture<Dim>& mixture;
   CellVectors<Dim> u, acceleration, momentum;
   FaceScalars<Dim> u_mac;
-  ConvectionWork<Dim> work;
+  CellVectors<Dim> u_half;
   Fractions phi_tilde;
   std::vector<double> escaped;
 
@@ -27,7 +27,7 @@ struct Convection {
         acceleration(m.domain.layout()),
         momentum(m.domain.layout()),
         u_mac(m.domain.layout()),
-        work(m.domain.layout()),
+        u_half(m.domain.layout()),
         phi_tilde(m.phi),
         escaped(m.species.size(), 0.0) {}
 
@@ -38,12 +38,11 @@ struct Convection {
     const Domain<Dim>& domain = mixture.domain;
     fill_velocity_ghosts(domain, u);
     fill_acceleration_ghosts(domain.grid, domain.sides, acceleration);
-    predict_velocities(domain, input(), dt, work, u_mac);
-    const CellField inflow(domain.layout());
+    predict_velocities(domain, input(), dt, u_half, u_mac);
     CellField potential(domain.layout());
-    project_face_velocities(domain, mixture.rho, mixture.liquid, inflow, {{.relative = 1e-12}, Method::automatic},
-                            potential, u_mac);
-    convect(domain, mixture.species, input(), dt, u_mac, work, phi_tilde, momentum, escaped);
+    project_face_velocities(domain, mixture.rho, mixture.liquid, CellField(domain.layout()),
+                            {{.relative = 1e-12}, Method::automatic}, potential, u_mac);
+    convect(domain, mixture.species, input(), dt, u_mac, u_half, phi_tilde, momentum, escaped);
   }
   double least_fraction() const {
     double least = 1;

@@ -46,7 +46,7 @@ struct Step {
   Mixture<Dim> mixture;
   CellVectors<Dim> u, acceleration, momentum;
   FaceScalars<Dim> u_mac;
-  ConvectionWork<Dim> work;
+  CellVectors<Dim> u_half;
   Fractions phi_tilde;
   std::vector<double> escaped;
 
@@ -57,7 +57,7 @@ struct Step {
         acceleration(domain.layout()),
         momentum(domain.layout()),
         u_mac(domain.layout()),
-        work(domain.layout()),
+        u_half(domain.layout()),
         phi_tilde(mixture.phi),
         escaped(2, 0.0) {}
   Step(const Step&) = delete;
@@ -67,8 +67,8 @@ struct Step {
     return {mixture.phi, mixture.total, mixture.rho, u, acceleration, mixture.liquid, mixture.interfaces};
   }
   void advance() {
-    predict_velocities(domain, input(), dt, work, u_mac);
-    convect(domain, mixture.species, input(), dt, u_mac, work, phi_tilde, momentum, escaped);
+    predict_velocities(domain, input(), dt, u_half, u_mac);
+    convect(domain, mixture.species, input(), dt, u_mac, u_half, phi_tilde, momentum, escaped);
   }
 };
 

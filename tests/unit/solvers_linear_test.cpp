@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "solvers/multigrid.hpp"
+#include "support/grids.hpp"
 #include "unit/solvers_problems.hpp"
 
 namespace quicksand {
@@ -37,7 +38,7 @@ double true_residual(const StencilMatrix<Dim, At>& matrix, const Field<At>& b, F
 /// Solves for a rough right-hand side to 1e-8 from zero.
 template <int Dim, class At>
 void expect_solved(StencilMatrix<Dim, At> matrix, Method expected, int most_iterations) {
-  const Field<At> b = rough_field(matrix);
+  Field<At> b = rough_field(matrix);
   Field<At> x(matrix.layout);
   const SolveReport report = solve(matrix, b, x);
   EXPECT_TRUE(report.converged);
@@ -98,7 +99,7 @@ TEST(LinearSolver, SmallSystemsAndLinesAreFactorised) {
   auto matrix = cell_laplacian(point, everywhere);
   const Cell only = point.cell(Index<2>{});
   matrix.diagonal[only] = 4;
-  const CellField b(point.layout(), 2.0);
+  CellField b(point.layout(), 2.0);
   CellField x(point.layout());
   EXPECT_TRUE(solve(matrix, b, x).converged);
   EXPECT_DOUBLE_EQ(x[only], 0.5);
@@ -109,6 +110,7 @@ TEST(LinearSolver, AllNeumannSystemsAreMadeConsistent) {
     const Grid<2> grid({uniform_axis(n), graded_axis(n, 2)}, Geometry::planar);
     auto matrix = cell_laplacian(grid, everywhere);
     CellField b = rough_field(matrix);
+    CellField consistent = b;
     const double cells = static_cast<double>(matrix.box.size());
     const double mean = sum<Cell>(grid.layout(), matrix.box, [&](Cell c) { return b[c]; }) / cells;
     CellField x(grid.layout());
@@ -116,8 +118,9 @@ TEST(LinearSolver, AllNeumannSystemsAreMadeConsistent) {
     EXPECT_TRUE(report.converged);
     EXPECT_LE(report.iterations, 18);
     EXPECT_LE(solve(matrix, b, x).iterations, 1);
-    for_each<Cell>(grid.layout(), matrix.box, [&](Cell c) { b[c] -= mean; });
-    EXPECT_LT(true_residual(matrix, b, x), 2e-8);
+    for_each<Cell>(grid.layout(), matrix.box, [&](Cell c) { consistent[c] -= mean; });
+    EXPECT_LT(testing::largest_difference(grid, b, consistent), 1e-14);
+    EXPECT_LT(true_residual(matrix, consistent, x), 2e-8);
     EXPECT_NEAR(sum<Cell>(grid.layout(), matrix.box, [&](Cell c) { return x[c]; }) / cells, 0, 1e-12);
   }
 }
@@ -136,7 +139,7 @@ TEST(LinearSolver, WarmStartSavesIterations) {
 TEST(LinearSolver, ZeroRightHandSideGivesZero) {
   const Grid<2> grid({uniform_axis(64), uniform_axis(64)}, Geometry::planar);
   auto matrix = cell_laplacian(grid, lower_part(grid));
-  const CellField b(grid.layout());
+  CellField b(grid.layout());
   CellField x(grid.layout());
   const SolveReport report = solve(matrix, b, x);
   EXPECT_TRUE(report.converged);
@@ -164,7 +167,7 @@ TEST(LinearSolver, SaysWhenItDoesNotConverge) {
   SolveOptions options;
   options.relative = 1e-13;
   options.max_iterations = 1;
-  const CellField b = rough_field(matrix);
+  CellField b = rough_field(matrix);
   const SolveReport report = solve(matrix, b, x, options);
   EXPECT_FALSE(report.converged);
   EXPECT_NEAR(report.residual, true_residual(matrix, b, x), 1e-12);
@@ -183,7 +186,8 @@ TEST(LinearSolver, FallsBackWhenTheFirstChoiceFails) {
   SolveOptions options;
   options.method = Method::pfmg;
   options.max_iterations = 10;
-  const SolveReport report = solve(matrix, rough_field(matrix), x, options);
+  auto b = rough_field(matrix);
+  const SolveReport report = solve(matrix, b, x, options);
   EXPECT_TRUE(report.converged);
   EXPECT_EQ(report.method, name(Method::smg));
 }
@@ -231,7 +235,7 @@ TEST(ConjugateGradients, SolvesForVectorsOfFields) {
 TEST(ConjugateGradients, NoticesOperatorsThatAreNotPositive) {
   const Layout<2> layout(Index<2>{{4, 4}});
   const Box<2> box{Index<2>{}, layout.cells()};
-  const CellField b(layout, 1.0);
+  CellField b(layout, 1.0);
   CellField x(layout);
   const auto negate = [&](const CellField& v, CellField& y) {
     for_each<Cell>(layout, box, [&](Cell c) { y[c] = -v[c]; });

@@ -96,7 +96,7 @@ TEST(SolversPeriodic, ABoxThatReachesAnEndSpansTheAxis) {
 
 template <int Dim, class At>
 void expect_solved(StencilMatrix<Dim, At> matrix, int most_iterations, Method method = Method::pfmg) {
-  const Field<At> b = rough_field(matrix);
+  Field<At> b = rough_field(matrix);
   Field<At> x(matrix.layout);
   SolveOptions options;
   options.method = method;
