@@ -34,6 +34,13 @@ void for_each_number(std::ptrdiff_t count, std::ptrdiff_t points, Body&& body) {
   }
 }
 
+/// Calls body(i) for i in [0, count), in vector registers where the body allows: no call needs what another has done.
+template <class Body>
+void for_each_side_by_side(int count, Body&& body) {
+#pragma omp simd
+  for (int i = 0; i < count; ++i) body(i);
+}
+
 /// Rows (runs along x) of a box, numbered 0 ... count-1: for loops over rows in threads, or serial in a fixed order.
 template <int Dim>
 struct Rows {

@@ -98,9 +98,8 @@ DiffusionWork<Dim>::DiffusionWork(const Domain<Dim>& domain, const std::vector<S
 
 template <int Dim>
 void DiffusionWork<Dim>::acquire(const Layout<Dim>& layout) {
-  for (NodeField* field : {&potential, &gap}) {
-    if (field->size() == 0) *field = NodeField(layout);
-  }
+  if (potential.size() == 0) potential = NodeField(layout);
+  if (gap.size() == 0 && multiplier.size() > 0) gap = potential;
   for (CellVectors<Dim>* vectors : {&mass, &gradient, &trial_gradient, &update}) {
     if ((*vectors)[0].size() == 0) *vectors = CellVectors<Dim>(layout);
   }

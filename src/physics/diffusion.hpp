@@ -55,7 +55,7 @@ template <int Dim>
 struct DiffusionWork {
   StressElements<Dim> elements;
   NodeField potential;  ///< dt W Phi summed over an element's points
-  NodeField gap;        ///< dt W (tau_y s - <q, Delta>) likewise
+  NodeField gap;        ///< dt W (tau_y s - <q, Delta>) likewise, where some species has Bingham's law
   /// The plastic stress as an unknown of its own, in the primal-dual Newton method; carried from step to step. Has a
   /// size only when some species yields.
   Field<Node, PointStresses<Dim>> stress;

@@ -71,8 +71,7 @@ Flow<Dim>::Flow(Domain<Dim> domain, FlowParameters<Dim> parameters)
       u_hat_(domain_.layout()),
       mac_potential_(domain_.layout()),
       redistribution_(domain_, parameters_.species),
-      diffusion_(domain_, parameters_.species),
-      outer_pressure_(domain_.layout(), parameters_.ambient_pressure) {
+      diffusion_(domain_, parameters_.species) {
   state_.pressure.fill(parameters_.ambient_pressure);
 }
 
@@ -104,22 +103,28 @@ void Flow<Dim>::find_elements(const State<Dim>& state) {
 }
 
 template <int Dim>
+NodeField Flow<Dim>::pressure_outside(const GasState& gas, bool mean) const {
+  NodeField pressure(domain_.layout(), parameters_.ambient_pressure);
+  gas_pressure_on_nodes(domain_, gas_parameters(), gas, liquid_, mean, pressure);
+  set_open_pressures(domain_, pressure);
+  return pressure;
+}
+
+template <int Dim>
 void Flow<Dim>::initialize() {
   refresh();
   if (has_bubbles(gas_parameters(), state_.gas)) {
     start_gas(domain_, gas_parameters(), total_, gas_labels_, state_.gas);
     hold_open(domain_.grid, state_.gas, liquid_);
   }
-  gas_pressure_on_nodes(domain_, gas_parameters(), state_.gas, liquid_, false, outer_pressure_);
-  set_open_pressures(domain_, outer_pressure_);
+  const NodeField outer_pressure = pressure_outside(state_.gas, false);
   find_elements(state_);
   // The pressure that balances gravity as the velocities stand: what is at rest stays so from the first step on.
   const Grid<Dim>& grid = domain_.grid;
-  const CellVectors<Dim> none(domain_.layout());
   const double dt = 1;
   ProjectionWork<Dim> work(domain_.layout());
-  add_uniform(grid.layout(), grid.cells(), none, dt, parameters_.gravity, u_hat_);
-  require_converged(solve_pressure(domain_, Projected::acceleration, 0.0, u_hat_, rho_, elements_, outer_pressure_, dt,
+  for (int d = 0; d < Dim; ++d) u_hat_[d].fill(dt * parameters_.gravity[d]);
+  require_converged(solve_pressure(domain_, Projected::acceleration, 0.0, u_hat_, rho_, elements_, outer_pressure, dt,
                                    parameters_.linear, work, state_.pressure),
                     "initial pressure");
   add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -dt, u_hat_);
@@ -162,10 +167,8 @@ template <int Dim>
 void Flow<Dim>::leave_failed_step(double dt) {
   if (parts_done_ < 3) next_.phi = state_.phi;
   if (parts_done_ < 4) next_.gas = state_.gas;
-  if (parts_done_ < 5) {
-    next_.u = state_.u;
-    next_.pressure = state_.pressure;
-  }
+  if (parts_done_ < 5) next_.u = state_.u;
+  if (next_.pressure.size() == 0) next_.pressure = state_.pressure;
   if (parts_done_ < 7) next_.acceleration = state_.acceleration;
   next_.time = state_.time + dt;
   next_.step = state_.step + 1;
@@ -192,11 +195,12 @@ void Flow<Dim>::project(double dt, StepReport& report) {
   CellVectors<Dim>& u_bar_star = u_hat_;
   u_bar_star = next_.u;
   const double before = kinetic_energy(grid, rho_, u_bar_star);
+  const NodeField outer_pressure = pressure_outside(next_.gas, true);
   ProjectionWork<Dim> work(domain_.layout());
   const auto solve = [&](double memory) {
     next_.pressure = state_.pressure;
     SolveReport solved = solve_pressure(domain_, Projected::velocity, memory, u_bar_star, rho_, elements_,
-                                        outer_pressure_, dt, parameters_.linear, work, next_.pressure);
+                                        outer_pressure, dt, parameters_.linear, work, next_.pressure);
     solved.iterations += report.projection.iterations;
     report.projection = solved;
     report.gas_work = gas_work(domain_, u_bar_star, rho_, elements_, dt, work);
@@ -244,6 +248,7 @@ StepReport Flow<Dim>::step(double dt) {
   };
   std::vector<double> escaped = escaped_;
   parts_done_ = 0;
+  next_.pressure = {};  // until the projection, since other phases need the memory more
   multiplier_before_ = diffusion_.multiplier;
   penalty_before_ = diffusion_.penalty;
 
@@ -274,8 +279,6 @@ StepReport Flow<Dim>::step(double dt) {
     find_mixture(next_);
     next_.gas.end(state_.gas.last_id);
   }
-  gas_pressure_on_nodes(domain_, gas_parameters(), next_.gas, liquid_, true, outer_pressure_);
-  set_open_pressures(domain_, outer_pressure_);
   find_elements(next_);
   clock(Phase::redistribute_volume);
   report.momentum = redistribute_momentum(domain_, momentum_tilde, rho_, par.momentum, redistribution_, u_bar);
@@ -283,7 +286,6 @@ StepReport Flow<Dim>::step(double dt) {
   clock(Phase::redistribute_momentum);
   report.redistribution_energy_change = kinetic_energy(grid, rho_, u_bar) - energy_tilde;
 
-  next_.pressure = state_.pressure;
   add_uniform(grid.layout(), grid.cells(), lagged, dt, par.gravity, u_hat_);
   add_scaled(grid.layout(), grid.cells(), u_bar, 1.0, u_hat_, u_hat_);
   CellVectors<Dim>& u_star = next_.u;

@@ -132,6 +132,8 @@ class Flow {
   void refresh();
   /// total(), density() and liquid() of a state's fractions and gas, ghost cells of the fractions included.
   void find_mixture(State<Dim>& state);
+  /// Pressure of the gas around each node, and of open sides on theirs. \param mean  see gas_pressure_on_nodes()
+  NodeField pressure_outside(const GasState& gas, bool mean) const;
   /// Where pressure acts for a state's fractions and gas, whose total() it is.
   void find_elements(const State<Dim>& state);
   /// (51), (50): the pressure of the new state, and its velocity from (52) in place.
@@ -156,7 +158,6 @@ class Flow {
   RedistributionWork<Dim> redistribution_;
   DiffusionWork<Dim> diffusion_;
   GasLabels gas_labels_;
-  NodeField outer_pressure_;  ///< of the gas around each node
   /// Stresses of Bingham's law at the start of a step, for when it fails: they belong to the results.
   Field<Node, PointStresses<Dim>> multiplier_before_;
   double penalty_before_ = 0;

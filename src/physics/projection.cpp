@@ -2,43 +2,23 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+
+#include "physics/pressure_operator.hpp"
 
 namespace quicksand {
 
 namespace {
 
-/// Integral of grad N_a . grad N_b over a cell.
+/// Whether a system on a box of nodes is solved without its matrix: where PFMG of the star part would precede conjugate
+/// gradients anyway.
 template <int Dim>
-double stiffness(const Grid<Dim>& grid, const Index<Dim>& i, int a, int b) {
-  using C = Corners<Dim>;
-  double total = 0;
+bool suits_operator(const Layout<Dim>& layout, const Box<Dim>& box) {
   for (int d = 0; d < Dim; ++d) {
-    double product = (C::bit(a, d) == C::bit(b, d) ? 1 : -1) * grid.line_element(d, i[d]).stiffness;
-    for (int e = 0; e < Dim; ++e) {
-      if (e != d) product *= grid.line_element(e, i[e]).mass[C::bit(a, e)][C::bit(b, e)];
-    }
-    total += product;
+    if (layout.periodic(d)) return false;
   }
-  return total;
+  return Dim == 3 && !suits_factors(layout, box);
 }
-
-/// Which lower offset of the box stencil leads from the higher to the lower of two corners.
-template <int Dim>
-struct PairTable {
-  std::size_t offset[1 << Dim][1 << Dim] = {};  ///< [a][b] for a > b
-
-  explicit PairTable(const StencilMatrix<Dim, Node>& matrix) {
-    using C = Corners<Dim>;
-    for (int a = 0; a < C::count; ++a) {
-      for (int b = 0; b < a; ++b) {
-        Index<Dim> between;
-        for (int d = 0; d < Dim; ++d) between[d] = C::bit(b, d) - C::bit(a, d);
-        const auto found = std::find(matrix.offsets.begin(), matrix.offsets.end(), between);
-        offset[a][b] = static_cast<std::size_t>(found - matrix.offsets.begin());
-      }
-    }
-  }
-};
 
 /// The least pressure given at a node, 0 if there is none. The solver's relative tolerance is to mean differences of
 /// pressure, not their height above zero.
@@ -50,50 +30,81 @@ double least_given(const Domain<Dim>& domain, const NodeMask& free, const NodeFi
   return negative > none ? -negative : 0.0;
 }
 
-/// What pressures at the corners of a cell do in it.
+/// Adds couplings of free nodes to a matrix with a box stencil.
 template <int Dim>
-struct CellPressure {
-  double volume;
-  MeanGradient<Dim> mean;                ///< levers and all
-  double stiffness[1 << Dim][1 << Dim];  ///< integral of grad N_a . grad N_b, its part of mean gradients that of `mean`
-
-  CellPressure(const Grid<Dim>& grid, const Corners<Dim>& corners, const PressureElements<Dim>& elements, Cell c,
-               const Index<Dim>& i)
-      : volume(grid.volume(i)), mean(elements.gradient(grid, corners, c, i)) {
-    for (int a = 0; a < Corners<Dim>::count; ++a) {
-      for (int b = 0; b <= a; ++b) stiffness[a][b] = stiffness[b][a] = quicksand::stiffness(grid, i, a, b);
-    }
-    if (!elements.cut[c]) return;
-    const MeanGradient<Dim> even = even_gradient(grid, i);
-    for (int a = 0; a < Corners<Dim>::count; ++a) {
-      for (int b = 0; b < Corners<Dim>::count; ++b) {
-        stiffness[a][b] += volume * (product(mean, a, b) - product(even, a, b));
+class WholeMatrix {
+ public:
+  explicit WholeMatrix(StencilMatrix<Dim, Node>& matrix) : matrix_(matrix) {
+    using C = Corners<Dim>;
+    for (int a = 0; a < C::count; ++a) {
+      for (int b = 0; b < a; ++b) {
+        Index<Dim> between;
+        for (int d = 0; d < Dim; ++d) between[d] = C::bit(b, d) - C::bit(a, d);
+        const auto found = std::find(matrix.offsets.begin(), matrix.offsets.end(), between);
+        offset_[a][b] = static_cast<std::size_t>(found - matrix.offsets.begin());
       }
     }
   }
-  /// Part of the stiffness that is not of mean gradients.
-  double surplus(int a, int b) const { return stiffness[a][b] - volume * product(mean, a, b); }
+  /// Corners a >= b of a cell couple by k. \param corner  the cell's
+  void couple(const Node* corner, const NodeMask&, int a, int b, double k) {
+    (a == b ? matrix_.diagonal[corner[a]] : matrix_.lower[offset_[a][b]][corner[a]]) += k;
+  }
 
  private:
-  static double product(const MeanGradient<Dim>& g, int a, int b) {
-    double sum = 0;
-    for (int d = 0; d < Dim; ++d) sum += g.at[a][d] * g.at[b][d];
-    return sum;
+  StencilMatrix<Dim, Node>& matrix_;
+  std::size_t offset_[1 << Dim][1 << Dim] =
+      {};  ///< lower offset that leads from the higher to the lower, [a][b] for a > b
+};
+
+/// Adds couplings of free nodes to the star part of their matrix, see star_part(): edges to the couplings, the sums of
+/// the rows to the diagonal, until finish() is called.
+template <int Dim>
+class StarPart {
+ public:
+  explicit StarPart(StencilMatrix<Dim, Node>& star) : star_(star) {}
+  void couple(const Node* corner, const NodeMask& free, int a, int b, double k) {
+    star_.diagonal[corner[a]] += k;
+    if (a == b) return;
+    star_.diagonal[corner[b]] += k;
+    const int apart = a ^ b;
+    for (int d = 0; d < Dim; ++d) {
+      const int along = 1 << d;
+      if (!(apart & along)) continue;
+      for (const int end : {a, b}) {
+        // Half of it goes to either of two edges, all to the one that joins the corners.
+        if (free[corner[end ^ along]]) star_.lower[static_cast<std::size_t>(d)][corner[end | along]] += k / 2;
+      }
+    }
   }
+  void finish(const NodeMask& free) {
+    for (NodeField& edge : star_.lower) {
+      for_each<Node>(star_.layout, star_.box, [&](Node n) { edge[n] = std::min(edge[n], 0.0); });
+    }
+    for_each<Node>(star_.layout, star_.box, [&](Node n) {
+      if (!free[n]) return;
+      for (std::size_t d = 0; d < star_.lower.size(); ++d) {
+        star_.diagonal[n] -= star_.lower[d][n] + star_.lower[d][n + star_.steps[d]];
+      }
+    });
+  }
+
+ private:
+  StencilMatrix<Dim, Node>& star_;
 };
 
 /// Matrix dt K on the free nodes, and the right-hand side: sum V u-bar* . grad N, the remembered surplus of the
 /// stiffness on the last pressure, less what the given nodes contribute.
 /// \param increment  the last pressure on free nodes, the given one on others
-template <int Dim>
+/// \param matrix     of zeros, or with what another box left
+/// \param whole      WholeMatrix or StarPart of it
+template <int Dim, class Couplings>
 void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellField& rho,
               const PressureElements<Dim>& elements, double dt, double memory, const NodeField& increment,
-              StencilMatrix<Dim, Node>& matrix, NodeField& rhs) {
+              StencilMatrix<Dim, Node>& matrix, Couplings&& couplings, NodeField& rhs) {
   using C = Corners<Dim>;
   const Grid<Dim>& grid = domain.grid;
   const Layout<Dim>& layout = domain.layout();
   const C corners(layout);
-  const PairTable<Dim> pairs(matrix);
   const NodeMask& free = elements.free;
   // One layer more: rows reach couplings of the nodes around the box, which may be left from another box.
   for_each<Node>(layout, grow(matrix.box, 1), [&](Node n) {
@@ -117,15 +128,13 @@ void assemble(const Domain<Dim>& domain, const CellVectors<Dim>& u, const CellFi
       for (int b = 0; b < C::count; ++b) {
         const Node nb = corner[b];
         const double k = scale * cell.stiffness[a][b];
-        if (a == b) matrix.diagonal[na] += k;
-        if (a > b && free[nb]) matrix.lower[pairs.offset[a][b]][na] += k;
+        if (a >= b && free[nb]) couplings.couple(corner, free, a, b, k);
         if (!free[nb]) source -= k * increment[nb];
         if (memory > 0) source += memory * scale * cell.surplus(a, b) * increment[nb];
       }
       rhs[na] += source;
     }
   });
-  matrix.wrap_couplings();
 }
 
 /// What comes in through inflow sides: -integral of N u . n over them, on the right-hand side.
@@ -197,21 +206,45 @@ SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, double mem
   const double reference = least_given(domain, elements.free, outer_pressure);
   for_each<Node>(domain.layout(), nodes, [&](Node n) {
     if (!elements.free[n]) pressure[n] = outer_pressure[n];
-    work.increment[n] = pressure[n] - reference;
   });
+  const auto set_increment = [&] {
+    for_each<Node>(domain.layout(), nodes, [&](Node n) { work.increment[n] = pressure[n] - reference; });
+  };
+  set_increment();
   const Box<Dim> box = bounding_box<Node>(domain.layout(), nodes, [&](Node n) { return elements.free[n] != 0; });
   SolveReport report{.converged = true};
   if (!box.empty()) {
-    StencilMatrix<Dim, Node> matrix(domain.layout(), Stencil::box);
-    matrix.box = box;
-    assemble(domain, u_bar_star, rho, elements, dt, memory, work.increment, matrix, work.rhs);
-    if (what == Projected::velocity) add_inflow(domain, elements, work);
-    report = solve(matrix, work.rhs, work.increment, options);
+    const auto assemble_with = [&](StencilMatrix<Dim, Node>& matrix, auto&& couplings) {
+      matrix.box = box;
+      assemble(domain, u_bar_star, rho, elements, dt, memory, work.increment, matrix, couplings, work.rhs);
+      if (what == Projected::velocity) add_inflow(domain, elements, work);
+    };
+    report.converged = false;
+    if (options.method == Method::automatic && suits_operator(domain.layout(), box)) {
+      StencilMatrix<Dim, Node> star(domain.layout(), Stencil::star);
+      StarPart<Dim> couplings(star);
+      assemble_with(star, couplings);
+      couplings.finish(elements.free);
+      const PressureOperator<Dim> K(domain, rho, elements, dt, box);
+      for_each<Node>(domain.layout(), nodes,
+                     [&](Node n) { work.increment[n] = elements.free[n] ? work.increment[n] : 0.0; });
+      report = solve<Dim, Node>([&](NodeField& x, NodeField& y) { K.apply(x, y); }, std::move(star), work.rhs,
+                                work.increment, options);
+      if (!report.converged) set_increment();
+    }
+    if (!report.converged) {
+      StencilMatrix<Dim, Node> matrix(domain.layout(), Stencil::box);
+      assemble_with(matrix, WholeMatrix<Dim>(matrix));
+      matrix.wrap_couplings();
+      const int before = report.iterations;
+      report = solve(matrix, work.rhs, work.increment, options);
+      report.iterations += before;
+    }
     require_converged(report, "pressure projection");
-    for_each<Node>(domain.layout(), box, [&](Node n) {
+    for_each<Node>(domain.layout(), nodes, [&](Node n) {
       if (elements.free[n]) pressure[n] = reference + work.increment[n];
-      work.increment[n] = pressure[n] - reference;  // the solve leaves 0 on given nodes
     });
+    set_increment();  // solves leave 0 on given nodes
   }
   wrap(domain.layout(), nodes, pressure);
   return report;

@@ -45,14 +45,14 @@ double concentration_factor(double kappa, double c) {
 
 template <int Dim>
 void StressElements<Dim>::acquire(const Layout<Dim>& layout, bool newtonian) {
-  if (part.size() > 0) return;
+  if (share.size() > 0) return;
   active = NodeMask(layout);
   if (newtonian) {
     viscosity = NodeField(layout);
   } else {
     rheology = Field<Node, Rheology>(layout);
   }
-  share = part = NodeField(layout);
+  share = NodeField(layout);
 }
 
 template <int Dim>
@@ -61,7 +61,6 @@ void StressElements<Dim>::release() {
   rheology = {};
   viscosity = {};
   share = {};
-  part = {};
 }
 
 template <int Dim>
@@ -97,7 +96,7 @@ bool mark_stress_elements(const Domain<Dim>& domain, const std::vector<Species>&
     elements.active[n] = mixed.carries_stress() ? 1 : 0;
   });
   // An inactive element leaves each active neighbour an equal part of its liquid.
-  NodeField& part = elements.part;
+  NodeField part(layout);
   for_each<Node>(layout, grid.nodes(), [&](Node n, const Index<Dim>& i) {
     part[n] = 0;
     if (elements.active[n] || !(liquid[n] > 0)) return;

@@ -21,7 +21,6 @@ struct StressElements {
   Field<Node, Rheology> rheology;  ///< of active elements; of size 0 where no law is more than Newtonian
   NodeField viscosity;             ///< of active elements, where no law is more than Newtonian, else of size 0
   NodeField share;                 ///< liquid an active element stands for, as a part of its volume
-  NodeField part;                  ///< liquid that an inactive element leaves to each active neighbour
 
   explicit StressElements(const Domain<Dim>& domain) : mesh(domain) {}
   /// Makes the fields, where they are not there; gives them back.

@@ -121,7 +121,9 @@ FunctionalValue evaluate_functional(const Domain<Dim>& domain, const CellVectors
     inertia += sum<Cell>(layout, cells, [&](Cell c) { return 0.5 * gradient[d][c] * (u[d][c] - u_hat[d][c]); });
   }
   const Box<Dim> elements = elements_around(domain.grid, cells);
-  for_each<Node>(layout, elements, [&](Node n) { work.potential[n] = work.gap[n] = 0; });
+  const bool rigid = work.multiplier.size() > 0;
+  for_each<Node>(layout, elements, [&](Node n) { work.potential[n] = 0; });
+  if (rigid) for_each<Node>(layout, elements, [&](Node n) { work.gap[n] = 0; });
   for_each_active_element(layout, elements, work.elements, [&]<class Element>(const Element& e) {
     using Real = typename Element::Number;
     PointRates<Dim, Real> rates(e, u);
@@ -144,10 +146,10 @@ FunctionalValue evaluate_functional(const Domain<Dim>& domain, const CellVectors
         Real point_gap{};
         for (int l = 0; l < lanes<Real>; ++l) {
           if (!material.rigid(l)) continue;
-          const RigidYield<Dim> rigid = work.rigid_yield(e.node + Step{l}, q, lane(s, l));
-          set_lane(stress, l, rigid.stress);
-          set_lane(point_potential, l, lane(point_potential, l) + rigid.potential);
-          set_lane(point_gap, l, rigid.gap);
+          const RigidYield<Dim> yield = work.rigid_yield(e.node + Step{l}, q, lane(s, l));
+          set_lane(stress, l, yield.stress);
+          set_lane(point_potential, l, lane(point_potential, l) + yield.potential);
+          set_lane(point_gap, l, yield.gap);
         }
         gap += weight * point_gap;
       }
@@ -159,10 +161,10 @@ FunctionalValue evaluate_functional(const Domain<Dim>& domain, const CellVectors
     }
     scatter_stress(e, rates.at, gradient);
     add_to(work.potential, e.node, potential);
-    add_to(work.gap, e.node, gap);
+    if (rigid) add_to(work.gap, e.node, gap);
   });
   return {.value = inertia + sum<Node>(layout, elements, [&](Node n) { return work.potential[n]; }),
-          .gap = work.multiplier.size() == 0 ? 0.0 : sum<Node>(layout, elements, [&](Node n) { return work.gap[n]; })};
+          .gap = rigid ? sum<Node>(layout, elements, [&](Node n) { return work.gap[n]; }) : 0.0};
 }
 
 template <int Dim>

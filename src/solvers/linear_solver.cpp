@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -22,19 +23,30 @@ bool is_singular(const StencilMatrix<Dim, At>& matrix) {
   return diagonal > 0 && coupled_sum([&](At p) { return std::abs(matrix.row_sum(p)); }) <= round_off * diagonal;
 }
 
-/// x -= constant on the coupled rows.
+/// The rows of a matrix that couple to others.
 template <int Dim, class At>
-void subtract(const StencilMatrix<Dim, At>& matrix, double constant, Field<At>& x) {
-  for_each<At>(matrix.layout, matrix.box, [&](At p) { x[p] -= matrix.uncoupled(p) ? 0.0 : constant; });
-}
+class CoupledRows {
+ public:
+  explicit CoupledRows(const StencilMatrix<Dim, At>& matrix)
+      : layout_(matrix.layout), box_(matrix.box), coupled_(matrix.layout) {
+    for_each<At>(layout_, box_, [&](At p) { coupled_[p] = matrix.uncoupled(p) ? 0 : 1; });
+  }
+  /// x -= constant on them.
+  void subtract(double constant, Field<At>& x) const {
+    for_each<At>(layout_, box_, [&](At p) { x[p] -= coupled_[p] ? constant : 0.0; });
+  }
+  void remove_mean(Field<At>& x) const {
+    const auto coupled_sum = [&](auto&& f) {
+      return sum<At>(layout_, box_, [&](At p) { return coupled_[p] ? f(p) : 0.0; });
+    };
+    subtract(coupled_sum([&](At p) { return x[p]; }) / coupled_sum([](At) { return 1.0; }), x);
+  }
 
-template <int Dim, class At>
-void remove_mean(const StencilMatrix<Dim, At>& matrix, Field<At>& x) {
-  const auto coupled_sum = [&](auto&& f) {
-    return sum<At>(matrix.layout, matrix.box, [&](At p) { return matrix.uncoupled(p) ? 0.0 : f(p); });
-  };
-  subtract(matrix, coupled_sum([&](At p) { return x[p]; }) / coupled_sum([](At) { return 1.0; }), x);
-}
+ private:
+  Layout<Dim> layout_;
+  Box<Dim> box_;
+  Field<At, unsigned char> coupled_;
+};
 
 /// The first coupled row of a matrix that has any.
 template <int Dim, class At>
@@ -124,11 +136,39 @@ SolveReport solve(StencilMatrix<Dim, At>& matrix, Field<At>& b, Field<At>& x, co
   // With one diagonal doubled the matrix is definite; for a consistent right-hand side it picks the solution that is
   // zero at that point. So is the guess made, lest a good one look bad.
   const At at = first_coupled(matrix);
-  subtract(matrix, x[at], x);
-  remove_mean(matrix, b);
+  const CoupledRows<Dim, At> coupled(matrix);
+  coupled.subtract(x[at], x);
+  coupled.remove_mean(b);
   const Pin<Dim, At> pin(matrix, at);
   const SolveReport report = solve_definite(matrix, b, x, options);
-  remove_mean(matrix, x);
+  coupled.remove_mean(x);
+  return report;
+}
+
+template <int Dim, class At>
+SolveReport solve(const Operator<At>& apply, StencilMatrix<Dim, At> star, Field<At>& b, Field<At>& x,
+                  const SolveOptions& options) {
+  const Layout<Dim> layout = star.layout;
+  const Box<Dim> box = star.box;
+  SolveReport report;
+  report.method = name(Method::star_pfmg);
+  if (choose_method(star) != Method::pfmg) return report;
+  std::optional<CoupledRows<Dim, At>> null_space;
+  if (is_singular(star)) {
+    // As above, but the operator may stay singular: what conjugate gradients do keeps a right-hand side consistent.
+    null_space.emplace(star);
+    null_space->remove_mean(b);
+    star.diagonal[first_coupled(star)] *= 2;
+  }
+  try {
+    Preconditioner<Dim, At> preconditioner(star, Method::pfmg);
+    star = {};  // the hierarchy has copies
+    report = conjugate_gradients<At>(layout, box, apply, preconditioner, b, x, options);
+  } catch (const NumericalError&) {
+    report.residual = std::numeric_limits<double>::infinity();
+  }
+  report.method = name(Method::star_pfmg);
+  if (null_space) null_space->remove_mean(x);
   return report;
 }
 
@@ -140,6 +180,10 @@ void require_converged(const SolveReport& report, std::string_view what) {
   throw NumericalError(message.str());
 }
 
+template SolveReport solve(const Operator<Node>&, StencilMatrix<2, Node>, Field<Node>&, Field<Node>&,
+                           const SolveOptions&);
+template SolveReport solve(const Operator<Node>&, StencilMatrix<3, Node>, Field<Node>&, Field<Node>&,
+                           const SolveOptions&);
 template SolveReport solve(StencilMatrix<2, Cell>&, Field<Cell>&, Field<Cell>&, const SolveOptions&);
 template SolveReport solve(StencilMatrix<2, Node>&, Field<Node>&, Field<Node>&, const SolveOptions&);
 template SolveReport solve(StencilMatrix<3, Cell>&, Field<Cell>&, Field<Cell>&, const SolveOptions&);

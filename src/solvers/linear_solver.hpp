@@ -2,6 +2,7 @@
 /// \file
 /// Symmetric positive definite linear systems: which preconditioner suits a stencil matrix, and fallbacks when it does
 /// not.
+#include <functional>
 #include <string_view>
 
 #include "solvers/conjugate_gradients.hpp"
@@ -27,6 +28,19 @@ struct SolveOptions : Tolerance {
 template <int Dim, class At>
 [[nodiscard]] SolveReport solve(StencilMatrix<Dim, At>& matrix, Field<At>& b, Field<At>& x,
                                 const SolveOptions& options = {});
+
+/// y = A x on a box, written as a function.
+template <class At>
+using Operator = std::function<void(Field<At>& x, Field<At>& y)>;
+
+/// The same for an operator behind PFMG of the star part of its matrix, which need not be there as a whole. A star part
+/// that calls for another method, and a solve that fails, make a report that is not converged: there are no fallbacks.
+///
+/// \param star  star_part() of the matrix, by which a singular one is recognised
+/// \param b, x  0 on identity rows
+template <int Dim, class At>
+[[nodiscard]] SolveReport solve(const Operator<At>& apply, StencilMatrix<Dim, At> star, Field<At>& b, Field<At>& x,
+                                const SolveOptions& options);
 
 /// The same with a preconditioner that the caller keeps, for matrices that stay; neither fallbacks nor singular
 /// matrices.

@@ -19,12 +19,6 @@ namespace {
 constexpr int widest_band = 64;
 constexpr double cheap_factors = 1e7;
 
-template <int Dim>
-bool suits_factors(const BandOrder<Dim>& order) {
-  return order.bandwidth() <= widest_band ||
-         1.0 * order.size() * order.bandwidth() * order.bandwidth() <= cheap_factors;
-}
-
 /// Aspect ratio up to which relaxation by points suits a 9-point matrix.
 constexpr double largest_point_aspect = 1.6;
 /// Grading of two axes up to which PFMG is cheaper than SMG, whose plane relaxation costs far more in space.
@@ -158,6 +152,13 @@ class Diagonal {
 
 }  // namespace
 
+template <int Dim>
+bool suits_factors(const Layout<Dim>& layout, const Box<Dim>& box) {
+  const BandOrder<Dim> order(layout, box);
+  return order.bandwidth() <= widest_band ||
+         1.0 * order.size() * order.bandwidth() * order.bandwidth() <= cheap_factors;
+}
+
 std::string_view name(Method method) {
   switch (method) {
     case Method::automatic: return "automatic";
@@ -176,7 +177,7 @@ std::string_view name(Method method) {
 /// cost.
 template <int Dim, class At>
 Method choose_method(const StencilMatrix<Dim, At>& matrix) {
-  if (suits_factors(BandOrder<Dim>(matrix.layout, matrix.box))) return Method::direct;
+  if (suits_factors(matrix.layout, matrix.box)) return Method::direct;
   const bool star = matrix.stencil == Stencil::star;
   const Anisotropy shape = anisotropy(star ? matrix : star_part(matrix));
   if (shape.grading > largest_pfmg_grading<Dim>) return Method::smg;
@@ -221,6 +222,8 @@ void Preconditioner<Dim, At>::operator()(const Field<At>& r, Field<At>& z) {
   std::visit([&](auto& way) { way(r, z); }, apply_->way);
 }
 
+template bool suits_factors(const Layout<2>&, const Box<2>&);
+template bool suits_factors(const Layout<3>&, const Box<3>&);
 template Method choose_method(const StencilMatrix<2, Cell>&);
 template Method choose_method(const StencilMatrix<2, Node>&);
 template Method choose_method(const StencilMatrix<3, Cell>&);

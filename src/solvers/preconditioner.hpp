@@ -21,6 +21,10 @@ enum class Method {
 /// Name of a method for reports.
 std::string_view name(Method method);
 
+/// Whether systems on a box are small or slender enough to be factorised.
+template <int Dim>
+bool suits_factors(const Layout<Dim>& layout, const Box<Dim>& box);
+
 /// The method that `automatic` stands for.
 template <int Dim, class At>
 Method choose_method(const StencilMatrix<Dim, At>& matrix);

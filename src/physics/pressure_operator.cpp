@@ -1,0 +1,194 @@
+#include "physics/pressure_operator.hpp"
+
+#include <algorithm>
+
+namespace quicksand {
+
+namespace {
+
+/// Nodes of a row that are worked on at once: their buffers stay in the nearest cache.
+constexpr int chunk = 128;
+
+/// Integral of grad N_a . grad N_b over a cell.
+template <int Dim>
+double even_stiffness(const Grid<Dim>& grid, const Index<Dim>& i, int a, int b) {
+  using C = Corners<Dim>;
+  double total = 0;
+  for (int d = 0; d < Dim; ++d) {
+    double product = (C::bit(a, d) == C::bit(b, d) ? 1 : -1) * grid.line_element(d, i[d]).stiffness;
+    for (int e = 0; e < Dim; ++e) {
+      if (e != d) product *= grid.line_element(e, i[e]).mass[C::bit(a, e)][C::bit(b, e)];
+    }
+    total += product;
+  }
+  return total;
+}
+
+constexpr std::size_t in_lower_half(int a, int b) {
+  const int row = std::max(a, b);
+  return static_cast<std::size_t>(row * (row + 1) / 2 + std::min(a, b));
+}
+
+}  // namespace
+
+template <int Dim>
+CellPressure<Dim>::CellPressure(const Grid<Dim>& grid, const Corners<Dim>& corners,
+                                const PressureElements<Dim>& elements, Cell c, const Index<Dim>& i)
+    : volume(grid.volume(i)), mean(elements.gradient(grid, corners, c, i)) {
+  for (int a = 0; a < Corners<Dim>::count; ++a) {
+    for (int b = 0; b <= a; ++b) stiffness[a][b] = stiffness[b][a] = even_stiffness(grid, i, a, b);
+  }
+  if (!elements.cut[c]) return;
+  const MeanGradient<Dim> even = even_gradient(grid, i);
+  for (int a = 0; a < Corners<Dim>::count; ++a) {
+    for (int b = 0; b < Corners<Dim>::count; ++b) {
+      stiffness[a][b] += volume * (product(mean, a, b) - product(even, a, b));
+    }
+  }
+}
+
+/// What a row of nodes has to do with the rows of nodes around a row of cells next to it. A row of nodes or cells is
+/// known by the bits of its place across x, one for each axis but that.
+template <int Dim>
+struct PressureOperator<Dim>::RowFactors {
+  static constexpr int count = 1 << (Dim - 1);
+  Step row[count];          ///< from the nodes' own row to each
+  double mass[count];       ///< product of mass factors across x
+  double stiffness[count];  ///< sum over the axes across x of stiffness along one and mass along the other
+
+  /// \param node        first node of the row
+  /// \param transverse  which corner row of the cells the nodes are
+  RowFactors(const Grid<Dim>& grid, const Index<Dim>& node, int transverse) {
+    for (int other = 0; other < count; ++other) {
+      row[other] = {};
+      mass[other] = 1;
+      stiffness[other] = 0;
+      for (int e = 1; e < Dim; ++e) {
+        const int own_bit = (transverse >> (e - 1)) & 1;
+        const int other_bit = (other >> (e - 1)) & 1;
+        const LineElement& element = grid.line_element(e, node[e] - own_bit);
+        row[other] = row[other] + (other_bit - own_bit) * grid.step(e);
+        const double m = element.mass[own_bit][other_bit];
+        const double k = own_bit == other_bit ? element.stiffness : -element.stiffness;
+        stiffness[other] = stiffness[other] * m + mass[other] * k;
+        mass[other] *= m;
+      }
+    }
+  }
+};
+
+template <int Dim>
+PressureOperator<Dim>::PressureOperator(const Domain<Dim>& domain, const CellField& rho,
+                                        const PressureElements<Dim>& elements, double dt, const Box<Dim>& box)
+    : domain_(domain), elements_(elements), box_(box), scale_(domain.layout()), matrix_(domain.layout()) {
+  const Grid<Dim>& grid = domain.grid;
+  const Layout<Dim>& layout = domain.layout();
+  for (int i = -ghosts; i < grid.owned_cells()[0] + ghosts; ++i) {
+    const LineElement& element = grid.line_element(0, i);
+    along_x_.stiffness.push_back(element.stiffness);
+    along_x_.mass_low.push_back(element.mass[0][0]);
+    along_x_.mass_across.push_back(element.mass[0][1]);
+    along_x_.mass_high.push_back(element.mass[1][1]);
+  }
+  for_each<Cell>(layout, grid.cells(),
+                 [&](Cell c) { scale_[c] = elements.bears[c] && !elements.cut[c] ? dt / rho[c] : 0.0; });
+  const std::ptrdiff_t row_length = layout.step(1).n;
+  row_is_cut_.resize(static_cast<std::size_t>(layout.size() / row_length), 0);
+  const auto is_cut = [&](Cell c, const Index<Dim>&) {
+    const bool cut = elements.bears[c] && elements.cut[c];
+    if (cut) row_is_cut_[static_cast<std::size_t>(c.n / row_length)] = 1;
+    return cut;
+  };
+  const Corners<Dim> corner(layout);
+  matrix_.find(layout, grid.cells(), is_cut, [&](Cell c, const Index<Dim>& i, ElementMatrix& matrix) {
+    const CellPressure<Dim> cell(grid, corner, elements, c, i);
+    for (int a = 0; a < corners; ++a) {
+      for (int b = 0; b <= a; ++b) matrix[in_lower_half(a, b)] = dt / rho[c] * cell.stiffness[a][b];
+    }
+    return true;
+  });
+}
+
+template <int Dim>
+void PressureOperator<Dim>::add_even_cells(const NodeField& x, const RowFactors& factors, std::ptrdiff_t start,
+                                           int first, int length, double* y) const {
+  // Sums across x, of the nodes and of one on either side of them.
+  double mass[chunk + 2];
+  double stiffness[chunk + 2];
+  const double* row[RowFactors::count];
+  for (int k = 0; k < RowFactors::count; ++k) row[k] = &x[Node{start - 1} + factors.row[k]];
+  for_each_side_by_side(length + 2, [&](int i) {
+    double m = 0;
+    double s = 0;
+    for (int k = 0; k < RowFactors::count; ++k) {
+      m += factors.mass[k] * row[k][i];
+      s += factors.stiffness[k] * row[k][i];
+    }
+    mass[i] = m;
+    stiffness[i] = s;
+  });
+  // From here on element i lies below node i, element i + 1 above it.
+  const double* const scale = &scale_[Cell{start - 1} + factors.row[0]];
+  const auto element = static_cast<std::size_t>(first - 1 + ghosts);
+  const double* const k_x = &along_x_.stiffness[element];
+  const double* const m_low = &along_x_.mass_low[element];
+  const double* const m_across = &along_x_.mass_across[element];
+  const double* const m_high = &along_x_.mass_high[element];
+  for_each_side_by_side(length, [&](int i) {
+    const double below = k_x[i] * (mass[i + 1] - mass[i]) + m_across[i] * stiffness[i] + m_high[i] * stiffness[i + 1];
+    const double above =
+        k_x[i + 1] * (mass[i + 1] - mass[i + 2]) + m_low[i + 1] * stiffness[i + 1] + m_across[i + 1] * stiffness[i + 2];
+    y[i] += scale[i] * below + scale[i + 1] * above;
+  });
+}
+
+template <int Dim>
+void PressureOperator<Dim>::add_cut_cells(const NodeField& x, int transverse, Cell first_cell, int length,
+                                          double* y) const {
+  const Corners<Dim> corner(domain_.layout());
+  for (int i = -1; i < length; ++i) {
+    const Cell c{first_cell.n + i};
+    if (!matrix_.has(c)) continue;
+    const ElementMatrix& matrix = matrix_[c];
+    for (int high = 0; high < 2; ++high) {
+      if (i + high < 0 || i + high >= length) continue;
+      const int a = 2 * transverse + high;
+      double sum = 0;
+      for (int b = 0; b < corners; ++b) sum += matrix[in_lower_half(a, b)] * x[low_node(c) + corner.step[b]];
+      y[i + high] += sum;
+    }
+  }
+}
+
+template <int Dim>
+void PressureOperator<Dim>::apply(const NodeField& x, NodeField& y) const {
+  constexpr int cost = 1 << (2 * Dim);
+  const Layout<Dim>& layout = domain_.layout();
+  const Rows<Dim> rows(layout, box_);
+  rows.for_each(
+      [&](std::ptrdiff_t start) {
+        double* const row = &y[Node{start}];
+        std::fill_n(row, rows.length, 0.0);
+        const Index<Dim> node = layout.multi(start);
+        for (int transverse = 0; transverse < RowFactors::count; ++transverse) {
+          const RowFactors factors(domain_.grid, node, transverse);
+          for (int i = 0; i < rows.length; i += chunk) {
+            add_even_cells(x, factors, start + i, node[0] + i, std::min(chunk, rows.length - i), row + i);
+          }
+          const Cell first_cell = Cell{start} + factors.row[0];
+          if (row_is_cut_[static_cast<std::size_t>(first_cell.n / layout.step(1).n)]) {
+            add_cut_cells(x, transverse, first_cell, rows.length, row);
+          }
+        }
+        const unsigned char* const free = &elements_.free[Node{start}];
+        for (int i = 0; i < rows.length; ++i) row[i] = free[i] ? row[i] : 0.0;
+      },
+      cost);
+}
+
+template struct CellPressure<2>;
+template struct CellPressure<3>;
+template class PressureOperator<2>;
+template class PressureOperator<3>;
+
+}  // namespace quicksand
