@@ -100,9 +100,14 @@ template <int Dim>
 void DiffusionWork<Dim>::acquire(const Layout<Dim>& layout) {
   if (potential.size() == 0) potential = NodeField(layout);
   if (gap.size() == 0 && multiplier.size() > 0) gap = potential;
-  for (CellVectors<Dim>* vectors : {&mass, &gradient, &trial_gradient, &update}) {
+  for (CellVectors<Dim>* vectors : {&mass, &gradient, &trial_gradient}) {
     if ((*vectors)[0].size() == 0) *vectors = CellVectors<Dim>(layout);
   }
+}
+
+template <int Dim>
+void DiffusionWork<Dim>::acquire_update(const Layout<Dim>& layout) {
+  if (update[0].size() == 0) update = CellVectors<Dim>(layout);
 }
 
 template <int Dim>

@@ -70,8 +70,10 @@ struct DiffusionWork {
   CellVectors<Dim> gradient, trial_gradient, update;
   CellVectors<Dim> trial;  ///< of nonlinear iterations, which make it
 
-  /// Makes masses, gradients, update, potential and gap, which live within one step only; gives all such arrays back.
+  /// Makes masses, gradients, potential and gap, which live within one step only, and for iterations the update; gives
+  /// all such arrays back.
   void acquire(const Layout<Dim>& layout);
+  void acquire_update(const Layout<Dim>& layout);
   void release();
 
   DiffusionWork(const Domain<Dim>& domain, const std::vector<Species>& species);

@@ -23,6 +23,7 @@ class PrimalStep {
  public:
   explicit PrimalStep(const ViscousProblem<Dim>& p) : problem_(p) {
     const Layout<Dim>& layout = p.domain.layout();
+    p.work.acquire_update(layout);
     const DiffusionWork<Dim>& work = p.work;
     const auto any = [&](auto&& has) {
       return maximum<Node>(layout, p.domain.grid.nodes(), 0.0, [&](Node n) {

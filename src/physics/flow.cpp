@@ -103,11 +103,13 @@ void Flow<Dim>::find_elements(const State<Dim>& state) {
 }
 
 template <int Dim>
-NodeField Flow<Dim>::pressure_outside(const GasState& gas, bool mean) const {
-  NodeField pressure(domain_.layout(), parameters_.ambient_pressure);
-  gas_pressure_on_nodes(domain_, gas_parameters(), gas, liquid_, mean, pressure);
-  set_open_pressures(domain_, pressure);
-  return pressure;
+void Flow<Dim>::set_outer_pressure(const GasState& gas, bool mean, NodeField& pressure) const {
+  NodeField outer(domain_.layout(), parameters_.ambient_pressure);
+  gas_pressure_on_nodes(domain_, gas_parameters(), gas, liquid_, mean, outer);
+  set_open_pressures(domain_, outer);
+  for_each<Node>(domain_.layout(), domain_.grid.nodes(), [&](Node n) {
+    if (!elements_.free[n]) pressure[n] = outer[n];
+  });
 }
 
 template <int Dim>
@@ -117,14 +119,14 @@ void Flow<Dim>::initialize() {
     start_gas(domain_, gas_parameters(), total_, gas_labels_, state_.gas);
     hold_open(domain_.grid, state_.gas, liquid_);
   }
-  const NodeField outer_pressure = pressure_outside(state_.gas, false);
   find_elements(state_);
+  set_outer_pressure(state_.gas, false, state_.pressure);
   // The pressure that balances gravity as the velocities stand: what is at rest stays so from the first step on.
   const Grid<Dim>& grid = domain_.grid;
   const double dt = 1;
   ProjectionWork<Dim> work(domain_.layout());
   for (int d = 0; d < Dim; ++d) u_hat_[d].fill(dt * parameters_.gravity[d]);
-  require_converged(solve_pressure(domain_, Projected::acceleration, 0.0, u_hat_, rho_, elements_, outer_pressure, dt,
+  require_converged(solve_pressure(domain_, Projected::acceleration, 0.0, u_hat_, rho_, elements_, dt,
                                    parameters_.linear, work, state_.pressure),
                     "initial pressure");
   add_pressure_gradient(domain_, state_.pressure, rho_, elements_, -dt, u_hat_);
@@ -195,12 +197,12 @@ void Flow<Dim>::project(double dt, StepReport& report) {
   CellVectors<Dim>& u_bar_star = u_hat_;
   u_bar_star = next_.u;
   const double before = kinetic_energy(grid, rho_, u_bar_star);
-  const NodeField outer_pressure = pressure_outside(next_.gas, true);
   ProjectionWork<Dim> work(domain_.layout());
   const auto solve = [&](double memory) {
     next_.pressure = state_.pressure;
-    SolveReport solved = solve_pressure(domain_, Projected::velocity, memory, u_bar_star, rho_, elements_,
-                                        outer_pressure, dt, parameters_.linear, work, next_.pressure);
+    set_outer_pressure(next_.gas, true, next_.pressure);
+    SolveReport solved = solve_pressure(domain_, Projected::velocity, memory, u_bar_star, rho_, elements_, dt,
+                                        parameters_.linear, work, next_.pressure);
     solved.iterations += report.projection.iterations;
     report.projection = solved;
     report.gas_work = gas_work(domain_, u_bar_star, rho_, elements_, dt, work);
@@ -248,7 +250,10 @@ StepReport Flow<Dim>::step(double dt) {
   };
   std::vector<double> escaped = escaped_;
   parts_done_ = 0;
-  next_.pressure = {};  // until the projection, since other phases need the memory more
+  // Until they are needed, since other phases need the memory more.
+  next_.pressure = {};
+  next_.u = {};
+  for (CellField& phi : next_.phi) phi = {};
   multiplier_before_ = diffusion_.multiplier;
   penalty_before_ = diffusion_.penalty;
 
@@ -263,6 +268,8 @@ StepReport Flow<Dim>::step(double dt) {
                                          mac_potential_, u_mac);
     clock(Phase::mac_projection, &u_mac);
     require_finite(grid, u_mac);
+    for (CellField& phi : next_.phi) phi = CellField(domain_.layout());
+    momentum_tilde = CellVectors<Dim>(domain_.layout());
     convect(domain_, par.species, in, dt, u_mac, u_half, next_.phi, momentum_tilde, escaped);
   }
   mix_density(grid, par.species, next_.phi, rho_);

@@ -132,8 +132,9 @@ class Flow {
   void refresh();
   /// total(), density() and liquid() of a state's fractions and gas, ghost cells of the fractions included.
   void find_mixture(State<Dim>& state);
-  /// Pressure of the gas around each node, and of open sides on theirs. \param mean  see gas_pressure_on_nodes()
-  NodeField pressure_outside(const GasState& gas, bool mean) const;
+  /// Gives nodes that are not free the pressure of the gas around them, or of their open side.
+  /// \param mean  see gas_pressure_on_nodes()
+  void set_outer_pressure(const GasState& gas, bool mean, NodeField& pressure) const;
   /// Where pressure acts for a state's fractions and gas, whose total() it is.
   void find_elements(const State<Dim>& state);
   /// (51), (50): the pressure of the new state, and its velocity from (52) in place.

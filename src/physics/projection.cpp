@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "physics/pressure_operator.hpp"
@@ -23,10 +24,10 @@ bool suits_operator(const Layout<Dim>& layout, const Box<Dim>& box) {
 /// The least pressure given at a node, 0 if there is none. The solver's relative tolerance is to mean differences of
 /// pressure, not their height above zero.
 template <int Dim>
-double least_given(const Domain<Dim>& domain, const NodeMask& free, const NodeField& outer_pressure) {
+double least_given(const Domain<Dim>& domain, const NodeMask& free, const NodeField& pressure) {
   constexpr double none = std::numeric_limits<double>::lowest();
-  const double negative = maximum<Node>(domain.layout(), domain.grid.nodes(), none,
-                                        [&](Node n) { return free[n] ? none : -outer_pressure[n]; });
+  const double negative =
+      maximum<Node>(domain.layout(), domain.grid.nodes(), none, [&](Node n) { return free[n] ? none : -pressure[n]; });
   return negative > none ? -negative : 0.0;
 }
 
@@ -200,13 +201,10 @@ void add_pressure_gradient(const Domain<Dim>& domain, const NodeField& pressure,
 
 template <int Dim>
 SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, double memory, const CellVectors<Dim>& u_bar_star,
-                           const CellField& rho, const PressureElements<Dim>& elements, const NodeField& outer_pressure,
-                           double dt, const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure) {
+                           const CellField& rho, const PressureElements<Dim>& elements, double dt,
+                           const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure) {
   const Box<Dim> nodes = domain.grid.nodes();
-  const double reference = least_given(domain, elements.free, outer_pressure);
-  for_each<Node>(domain.layout(), nodes, [&](Node n) {
-    if (!elements.free[n]) pressure[n] = outer_pressure[n];
-  });
+  const double reference = least_given(domain, elements.free, pressure);
   const auto set_increment = [&] {
     for_each<Node>(domain.layout(), nodes, [&](Node n) { work.increment[n] = pressure[n] - reference; });
   };
@@ -225,11 +223,14 @@ SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, double mem
       StarPart<Dim> couplings(star);
       assemble_with(star, couplings);
       couplings.finish(elements.free);
-      const PressureOperator<Dim> K(domain, rho, elements, dt, box);
+      std::optional<PressureOperator<Dim>> K;  // made when the star part has gone
       for_each<Node>(domain.layout(), nodes,
                      [&](Node n) { work.increment[n] = elements.free[n] ? work.increment[n] : 0.0; });
-      report = solve<Dim, Node>([&](NodeField& x, NodeField& y) { K.apply(x, y); }, std::move(star), work.rhs,
-                                work.increment, options);
+      const auto apply = [&](const NodeField& x, NodeField& y) {
+        if (!K) K.emplace(domain, rho, elements, dt, box);
+        K->apply(x, y);
+      };
+      report = solve<Dim, Node>(apply, std::move(star), work.rhs, work.increment, options);
       if (!report.converged) set_increment();
     }
     if (!report.converged) {
@@ -281,14 +282,14 @@ double gas_work(const Domain<Dim>& domain, const CellVectors<Dim>& u_bar_star, c
   return -dt * sum<Node>(layout, nodes, [&](Node n) { return work.rhs[n] * work.increment[n]; });
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                                                              \
-  template void add_pressure_gradient(const Domain<Dim>&, const NodeField&, const CellField&,                   \
-                                      const PressureElements<Dim>&, double, CellVectors<Dim>&);                 \
-  template void set_open_pressures(const Domain<Dim>&, NodeField&);                                             \
-  template SolveReport solve_pressure(const Domain<Dim>&, Projected, double, const CellVectors<Dim>&,           \
-                                      const CellField&, const PressureElements<Dim>&, const NodeField&, double, \
-                                      const SolveOptions&, ProjectionWork<Dim>&, NodeField&);                   \
-  template double gas_work(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&,                       \
+#define QUICKSAND_INSTANTIATE(Dim)                                                                                 \
+  template void add_pressure_gradient(const Domain<Dim>&, const NodeField&, const CellField&,                      \
+                                      const PressureElements<Dim>&, double, CellVectors<Dim>&);                    \
+  template void set_open_pressures(const Domain<Dim>&, NodeField&);                                                \
+  template SolveReport solve_pressure(const Domain<Dim>&, Projected, double, const CellVectors<Dim>&,              \
+                                      const CellField&, const PressureElements<Dim>&, double, const SolveOptions&, \
+                                      ProjectionWork<Dim>&, NodeField&);                                           \
+  template double gas_work(const Domain<Dim>&, const CellVectors<Dim>&, const CellField&,                          \
                            const PressureElements<Dim>&, double, ProjectionWork<Dim>&);
 QUICKSAND_INSTANTIATE(2)
 QUICKSAND_INSTANTIATE(3)

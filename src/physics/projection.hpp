@@ -34,7 +34,7 @@ void set_open_pressures(const Domain<Dim>& domain, NodeField& outer_pressure);
 /// none.
 enum class Projected { velocity, acceleration };
 
-/// Solves dt div(1/rho grad P) = div u-bar* in D (51), with P = outer_pressure on nodes that are not free.
+/// Solves dt div(1/rho grad P) = div u-bar* in D (51), with P given on nodes that are not free.
 ///
 /// Deviates from the report: the matrix K holds more than the divergence of the elements' mean gradients. This surplus
 /// may act on P - memory P^{n-1/2} in place of P: with memory = 1 a pressure that balances all other forces is found
@@ -42,14 +42,13 @@ enum class Projected { velocity, acceleration };
 /// of P^{n-1/2}; with memory = 0 it can't, but for what an inflow brings.
 ///
 /// \param u_bar_star      (52), owned cells
-/// \param outer_pressure  pressure of the gas around each node, and of open sides on their nodes
-/// \param pressure        the last step's pressure on entry (first guess), P^{n+1/2} on return; outer_pressure on nodes
-///                        that are not free
+/// \param pressure        on free nodes the last step's pressure on entry (first guess), P^{n+1/2} on return; on the
+///                        others what is given
 /// \throws NumericalError when the solve does not converge
 template <int Dim>
 SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, double memory, const CellVectors<Dim>& u_bar_star,
-                           const CellField& rho, const PressureElements<Dim>& elements, const NodeField& outer_pressure,
-                           double dt, const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure);
+                           const CellField& rho, const PressureElements<Dim>& elements, double dt,
+                           const SolveOptions& options, ProjectionWork<Dim>& work, NodeField& pressure);
 
 /// Work that the gas does on the liquid in the projection just solved: minus dt times the sum over the given nodes of
 /// their pressure times the volume that leaves D there, r = sum V u-bar* . grad N - dt K P. \param work  as

@@ -25,6 +25,7 @@ constexpr double negligible = 1e-8;
 /// Ratio of a linear system's diagonal to the mass, in the mean, up to which no more than the diagonal is needed before
 /// it.
 constexpr double stiff = 30;
+constexpr int most_conjugate = 200;  ///< iterations behind the diagonal
 
 /// Decrease of the functional that would change the velocity by round-off only.
 template <int Dim>
@@ -190,20 +191,26 @@ std::optional<double> solve_linear_stress(const ViscousProblem<Dim>& p, double s
   const auto precondition = [&](const CellVectors<Dim>& r, CellVectors<Dim>& z) {
     for (int d = 0; d < Dim; ++d) for_each<Cell>(layout, box, [&](Cell c) { z[d][c] = r[d][c] / diagonal[d][c]; });
   };
-  for (int d = 0; d < Dim; ++d) work.update[d].fill(0);
-  const SolveReport linear = conjugate_gradients<Cell>(
-      layout, box, apply, precondition, work.gradient, work.update, {.relative = 0, .absolute = p.target},
-      [&](const CellVectors<Dim>& r) { return gradient_norm(p.domain, work, r); });
+  const auto norm = [&](const CellVectors<Dim>& r) { return gradient_norm(p.domain, work, r); };
+  // The gradient is A u less what it should be.
+  CellVectors<Dim>& r = work.gradient;
+  CellVectors<Dim> direction(layout), z(layout);
+  SolveReport linear;
+  double reached = start;
+  for (int round = 0; round < 3 && reached > p.target && linear.iterations < most_conjugate; ++round) {
+    descend<Cell>(layout, box, apply, precondition, -1.0, r, u, direction, z, p.target, most_conjugate, norm, linear);
+    reached = progress_at(p, u).norm;
+  }
   report.linear_iterations = linear.iterations;
-  if (!linear.converged) return std::nullopt;
+  if (!(reached <= p.target)) return std::nullopt;
   report.iterations = 1;
-  add_scaled(layout, box, u, -1.0, work.update, u);
-  return linear.residual * start;
+  return reached;
 }
 
 template <int Dim>
 bool iterate(const ViscousProblem<Dim>& p, ViscousIteration method, int max_iterations, CellVectors<Dim>& u,
              DiffusionReport& report) {
+  p.work.acquire_update(p.domain.layout());
   for (int d = 0; d < Dim; ++d) p.work.trial[d] = u[d];  // the iterations swap the two, and write the box only
   if (method == ViscousIteration::newton || method == ViscousIteration::dual) {
     report.method = "newton";

@@ -47,7 +47,8 @@ ViscousProgress progress_at(const ViscousProblem<Dim>& p, const CellVectors<Dim>
 /// is where it couples cells little more strongly than inertia holds them.
 ///
 /// \param start  norm of the gradient at u, which is in work.gradient
-/// \returns the norm reached; nothing where viscosity is stiff or the iteration does not converge, u as it was
+/// \param u      guess on entry; on return no worse than it, with its gradient in work.gradient
+/// \returns the norm reached; nothing where viscosity is stiff or the iteration does not converge
 template <int Dim>
 std::optional<double> solve_linear_stress(const ViscousProblem<Dim>& p, double start, CellVectors<Dim>& u,
                                           DiffusionReport& report);

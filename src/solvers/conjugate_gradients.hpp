@@ -84,6 +84,39 @@ struct EuclideanNorm {
   }
 };
 
+/// Conjugate gradients from an x with the residual r, until norm(r) is at most `target` or an iteration can't be done.
+///
+/// \param sign    x goes by `sign` times the steps: -1 where r is A x - b
+/// \param r       on the box; follows by recursion, so that round-off parts it from the true residual
+/// \param p, z    work vectors, zero around the box
+/// \param report  its iterations grow, to at most max_iterations
+/// \returns the norm of r
+template <class At, int Dim, class Vector, class Apply, class Precondition, class Norm>
+double descend(const Layout<Dim>& layout, const Box<Dim>& box, Apply&& apply, Precondition&& precondition, double sign,
+               Vector& r, Vector& x, Vector& p, Vector& z, double target, int max_iterations, Norm&& norm,
+               SolveReport& report) {
+  Vector& q = z;  // neither is there when the other is
+  double r_norm = norm(r);
+  double rz_old = 0;
+  while (r_norm > target && report.iterations < max_iterations) {
+    precondition(r, z);
+    const double rz = dot<At>(layout, box, r, z);
+    if (!(rz > 0) || !std::isfinite(rz)) break;
+    const double beta = rz_old > 0 ? rz / rz_old : 0;
+    combine<At>(layout, box, p, z, [beta](double& pi, double zi) { pi = zi + beta * pi; });
+    apply(p, q);
+    const double pq = dot<At>(layout, box, p, q);
+    if (!(pq > 0) || !std::isfinite(pq)) break;
+    const double alpha = rz / pq;
+    combine<At>(layout, box, x, p, [step = sign * alpha](double& xi, double pi) { xi += step * pi; });
+    combine<At>(layout, box, r, q, [alpha](double& ri, double qi) { ri -= alpha * qi; });
+    r_norm = norm(r);
+    rz_old = rz;
+    ++report.iterations;
+  }
+  return r_norm;
+}
+
 /// Solves A x = b for a symmetric positive (semi-)definite operator, from the guess x.
 ///
 /// \tparam At      Cell or Node
@@ -117,9 +150,7 @@ template <class At, int Dim, class Vector, class Apply, class Precondition, clas
     return report;
   }
 
-  Vector r(layout), p(layout);
-  Vector z(layout);
-  Vector& q = z;  // neither is there when the other is
+  Vector r(layout), p(layout), z(layout);
   const auto update_residual = [&] {
     apply(x, r);
     combine<At>(layout, box, r, b, [](double& ri, double bi) { ri = bi - ri; });
@@ -133,23 +164,7 @@ template <class At, int Dim, class Vector, class Apply, class Precondition, clas
   }
   // A second round runs only when the recursive residual drifted away from the true one.
   for (int round = 0; round < 3 && r_norm > target && report.iterations < tolerance.max_iterations; ++round) {
-    double rz_old = 0;
-    while (r_norm > target && report.iterations < tolerance.max_iterations) {
-      precondition(r, z);
-      const double rz = dot<At>(layout, box, r, z);
-      if (!(rz > 0) || !std::isfinite(rz)) break;
-      const double beta = rz_old > 0 ? rz / rz_old : 0;
-      combine<At>(layout, box, p, z, [beta](double& pi, double zi) { pi = zi + beta * pi; });
-      apply(p, q);
-      const double pq = dot<At>(layout, box, p, q);
-      if (!(pq > 0) || !std::isfinite(pq)) break;
-      const double alpha = rz / pq;
-      combine<At>(layout, box, x, p, [alpha](double& xi, double pi) { xi += alpha * pi; });
-      combine<At>(layout, box, r, q, [alpha](double& ri, double qi) { ri -= alpha * qi; });
-      r_norm = norm(r);
-      rz_old = rz;
-      ++report.iterations;
-    }
+    descend<At>(layout, box, apply, precondition, 1.0, r, x, p, z, target, tolerance.max_iterations, norm, report);
     r_norm = update_residual();
   }
   report.residual = r_norm / scale;

@@ -22,8 +22,7 @@ CellVectors<Dim> accelerate(const Mixture<Dim>& mixture, const Vec<Dim>& gravity
   for (int d = 0; d < Dim; ++d) u[d].fill(gravity[d]);
   ProjectionWork<Dim> work(domain.layout());
   NodeField pressure(domain.layout(), gas_pressure);
-  solve_pressure(domain, Projected::acceleration, 0.0, u, mixture.rho, mixture.elements,
-                 NodeField(domain.layout(), gas_pressure), 1, sharp, work, pressure);
+  solve_pressure(domain, Projected::acceleration, 0.0, u, mixture.rho, mixture.elements, 1, sharp, work, pressure);
   add_pressure_gradient(domain, pressure, mixture.rho, mixture.elements, -1, u);
   return u;
 }

@@ -22,8 +22,7 @@ template <int Dim>
 NodeField project(const Mixture<Dim>& mixture, double gas_pressure, CellVectors<Dim>& u) {
   ProjectionWork<Dim> work(mixture.domain.layout());
   NodeField pressure(mixture.domain.layout(), gas_pressure);
-  solve_pressure(mixture.domain, Projected::velocity, 0.0, u, mixture.rho, mixture.elements,
-                 NodeField(mixture.domain.layout(), gas_pressure), dt, sharp, work, pressure);
+  solve_pressure(mixture.domain, Projected::velocity, 0.0, u, mixture.rho, mixture.elements, dt, sharp, work, pressure);
   add_pressure_gradient(mixture.domain, pressure, mixture.rho, mixture.elements, -dt, u);
   return pressure;
 }
