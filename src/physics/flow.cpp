@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/vector_fields.hpp"
@@ -170,6 +171,7 @@ void Flow<Dim>::leave_failed_step(double dt) {
   if (parts_done_ < 3) next_.phi = state_.phi;
   if (parts_done_ < 4) next_.gas = state_.gas;
   if (parts_done_ < 5) next_.u = state_.u;
+  if (next_.u[0].size() == 0) next_.u = u_hat_;  // the projection's u-bar*
   if (next_.pressure.size() == 0) next_.pressure = state_.pressure;
   if (parts_done_ < 7) next_.acceleration = state_.acceleration;
   next_.time = state_.time + dt;
@@ -195,7 +197,8 @@ template <int Dim>
 void Flow<Dim>::project(double dt, StepReport& report) {
   const Grid<Dim>& grid = domain_.grid;
   CellVectors<Dim>& u_bar_star = u_hat_;
-  u_bar_star = next_.u;
+  u_bar_star = std::move(next_.u);
+  next_.u = {};
   const double before = kinetic_energy(grid, rho_, u_bar_star);
   ProjectionWork<Dim> work(domain_.layout());
   const auto solve = [&](double memory) {

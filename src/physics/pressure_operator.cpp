@@ -80,7 +80,7 @@ struct PressureOperator<Dim>::RowFactors {
 template <int Dim>
 PressureOperator<Dim>::PressureOperator(const Domain<Dim>& domain, const CellField& rho,
                                         const PressureElements<Dim>& elements, double dt, const Box<Dim>& box)
-    : domain_(domain), elements_(elements), box_(box), scale_(domain.layout()), matrix_(domain.layout()) {
+    : domain_(domain), elements_(elements), box_(box), scale_(domain.layout()) {
   const Grid<Dim>& grid = domain.grid;
   const Layout<Dim>& layout = domain.layout();
   for (int i = -ghosts; i < grid.owned_cells()[0] + ghosts; ++i) {
@@ -92,20 +92,38 @@ PressureOperator<Dim>::PressureOperator(const Domain<Dim>& domain, const CellFie
   }
   for_each<Cell>(layout, grid.cells(),
                  [&](Cell c) { scale_[c] = elements.bears[c] && !elements.cut[c] ? dt / rho[c] : 0.0; });
+  find_cut_cells(rho, dt);
+}
+
+template <int Dim>
+void PressureOperator<Dim>::find_cut_cells(const CellField& rho, double dt) {
+  const Grid<Dim>& grid = domain_.grid;
+  const Layout<Dim>& layout = domain_.layout();
   const std::ptrdiff_t row_length = layout.step(1).n;
-  row_is_cut_.resize(static_cast<std::size_t>(layout.size() / row_length), 0);
-  const auto is_cut = [&](Cell c, const Index<Dim>&) {
-    const bool cut = elements.bears[c] && elements.cut[c];
-    if (cut) row_is_cut_[static_cast<std::size_t>(c.n / row_length)] = 1;
-    return cut;
-  };
-  const Corners<Dim> corner(layout);
-  matrix_.find(layout, grid.cells(), is_cut, [&](Cell c, const Index<Dim>& i, ElementMatrix& matrix) {
-    const CellPressure<Dim> cell(grid, corner, elements, c, i);
-    for (int a = 0; a < corners; ++a) {
-      for (int b = 0; b <= a; ++b) matrix[in_lower_half(a, b)] = dt / rho[c] * cell.stiffness[a][b];
+  first_cut_.assign(static_cast<std::size_t>(layout.size() / row_length) + 1, 0);
+  const Rows<Dim> rows(layout, grid.cells());
+  for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
+    const std::ptrdiff_t start = rows.start(r);
+    for (int i = 0; i < rows.length; ++i) {
+      const Cell c{start + i};
+      if (elements_.bears[c] && elements_.cut[c]) cut_cells_.push_back(c);
     }
-    return true;
+    first_cut_[static_cast<std::size_t>(start / row_length) + 1] = cut_cells_.size();
+  }
+  // Rows of ghost cells have none: they begin where the row before them ends.
+  for (std::size_t row = 1; row < first_cut_.size(); ++row) {
+    first_cut_[row] = std::max(first_cut_[row], first_cut_[row - 1]);
+  }
+  cut_matrices_.resize(cut_cells_.size());
+  const Corners<Dim> corner(layout);
+  const auto count = static_cast<std::ptrdiff_t>(cut_cells_.size());
+  for_each_number(count, count * corners * corners, [&](std::ptrdiff_t k) {
+    const auto at = static_cast<std::size_t>(k);
+    const Cell c = cut_cells_[at];
+    const CellPressure<Dim> cell(grid, corner, elements_, c, layout.multi(c.n));
+    for (int a = 0; a < corners; ++a) {
+      for (int b = 0; b <= a; ++b) cut_matrices_[at][in_lower_half(a, b)] = dt / rho[c] * cell.stiffness[a][b];
+    }
   });
 }
 
@@ -146,16 +164,16 @@ template <int Dim>
 void PressureOperator<Dim>::add_cut_cells(const NodeField& x, int transverse, Cell first_cell, int length,
                                           double* y) const {
   const Corners<Dim> corner(domain_.layout());
-  for (int i = -1; i < length; ++i) {
-    const Cell c{first_cell.n + i};
-    if (!matrix_.has(c)) continue;
-    const ElementMatrix& matrix = matrix_[c];
+  const auto row = static_cast<std::size_t>(first_cell.n / domain_.layout().step(1).n);
+  for (std::size_t k = first_cut_[row]; k < first_cut_[row + 1]; ++k) {
+    const Cell c = cut_cells_[k];
+    const std::ptrdiff_t low = c.n - first_cell.n;
     for (int high = 0; high < 2; ++high) {
-      if (i + high < 0 || i + high >= length) continue;
+      if (low + high < 0 || low + high >= length) continue;
       const int a = 2 * transverse + high;
       double sum = 0;
-      for (int b = 0; b < corners; ++b) sum += matrix[in_lower_half(a, b)] * x[low_node(c) + corner.step[b]];
-      y[i + high] += sum;
+      for (int b = 0; b < corners; ++b) sum += cut_matrices_[k][in_lower_half(a, b)] * x[low_node(c) + corner.step[b]];
+      y[low + high] += sum;
     }
   }
 }
@@ -175,10 +193,7 @@ void PressureOperator<Dim>::apply(const NodeField& x, NodeField& y) const {
           for (int i = 0; i < rows.length; i += chunk) {
             add_even_cells(x, factors, start + i, node[0] + i, std::min(chunk, rows.length - i), row + i);
           }
-          const Cell first_cell = Cell{start} + factors.row[0];
-          if (row_is_cut_[static_cast<std::size_t>(first_cell.n / layout.step(1).n)]) {
-            add_cut_cells(x, transverse, first_cell, rows.length, row);
-          }
+          add_cut_cells(x, transverse, Cell{start} + factors.row[0], rows.length, row);
         }
         const unsigned char* const free = &elements_.free[Node{start}];
         for (int i = 0; i < rows.length; ++i) row[i] = free[i] ? row[i] : 0.0;

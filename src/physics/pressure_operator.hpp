@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "core/sparse_field.hpp"
 #include "physics/pressure_elements.hpp"
 
 namespace quicksand {
@@ -58,14 +57,17 @@ class PressureOperator {
                       double* y) const;
   /// The same of cut cells, to any number of nodes. \param transverse  see RowFactors
   void add_cut_cells(const NodeField& x, int transverse, Cell first_cell, int length, double* y) const;
+  void find_cut_cells(const CellField& rho, double dt);
 
   const Domain<Dim>& domain_;
   const PressureElements<Dim>& elements_;
   Box<Dim> box_;
   AlongX along_x_;                           ///< from the first ghost cell on
   CellField scale_;                          ///< dt / rho in even cells that bear pressure, 0 in all others
-  SparseField<Cell, ElementMatrix> matrix_;  ///< lower halves, row by row, of cut cells
-  std::vector<unsigned char> row_is_cut_;    ///< by flat number over the length of a row
+  std::vector<Cell> cut_cells_;              ///< that bear pressure, in order
+  std::vector<ElementMatrix> cut_matrices_;  ///< theirs: lower halves, row by row
+  /// Where the cut cells of a row begin in these, by the row's flat number over the length of a row; and their end.
+  std::vector<std::size_t> first_cut_;
 };
 
 extern template struct CellPressure<2>;
