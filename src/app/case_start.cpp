@@ -9,15 +9,36 @@
 
 #include "app/grid_sequence.hpp"
 #include "app/initial_bubbles.hpp"
+#include "physics/diffusion.hpp"
 
 namespace quicksand {
 
 namespace {
 
-/// Estimate of the doubles that a run holds per cell, solver hierarchies included: a base, per axis and per species.
-constexpr double base_fields = 60;
-constexpr double fields_per_axis = 30;
-constexpr double fields_per_species = 10;
+/// Estimate of the doubles that a run holds per cell, solver hierarchies included: a base and per species.
+constexpr double base_fields = 46;
+constexpr double fields_per_species = 7;
+/// What liquids with a yield stress or a viscosity that varies take besides: the law, the matrix with the hierarchies
+/// of its blocks, and stresses at the points of every element, three times where they are rigid.
+constexpr double law_fields = 10;
+template <int Dim>
+constexpr double matrix_fields = Dim == 2 ? 19 : 123;
+constexpr double hierarchy_fields = 18;
+template <int Dim>
+constexpr double stress_fields = sizeof(PointStresses<Dim>) / sizeof(double);
+
+template <int Dim>
+double stress_memory(const std::vector<Species>& species) {
+  double fields = 0;
+  for (const Species& s : species) {
+    const Rheology law = rheology(s.law);
+    const double stresses = law.rigid_yield_stress > 0 ? 3 : law.is_nonlinear() ? 1 : 0;
+    if (stresses == 0) continue;
+    const double whole = law_fields + matrix_fields<Dim> + Dim * hierarchy_fields + stresses * stress_fields<Dim>;
+    fields = std::max(fields, whole);
+  }
+  return fields;
+}
 
 /// Cells of a grid with its ghosts.
 double allocated_cells(const GridConfig& grid) {
@@ -33,8 +54,9 @@ double needed_memory(const CaseConfig& config) {
   for (const StageConfig& stage : config.stages) {
     most_cells = std::max(most_cells, allocated_cells(grid_of(config, stage)));
   }
-  const double fields = base_fields + fields_per_axis * config.grid.dimension +
-                        fields_per_species * static_cast<double>(config.species.size());
+  const double fields =
+      base_fields + fields_per_species * static_cast<double>(config.species.size()) +
+      (config.grid.dimension == 2 ? stress_memory<2>(config.species) : stress_memory<3>(config.species));
   // On its way from one grid to the next a flow is there twice.
   const double flows = config.stages.empty() && !config.regrid ? 1 : 2;
   return flows * fields * sizeof(double) * most_cells / 1e6;
