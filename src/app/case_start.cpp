@@ -25,7 +25,7 @@ template <int Dim>
 constexpr double matrix_fields = Dim == 2 ? 19 : 123;
 constexpr double hierarchy_fields = 18;
 template <int Dim>
-constexpr double stress_fields = sizeof(PointStresses<Dim>) / sizeof(double);
+constexpr double stress_fields = 1.0 * sizeof(PointStresses<Dim>) / sizeof(double);
 
 template <int Dim>
 double stress_memory(const std::vector<Species>& species) {

@@ -74,10 +74,13 @@ Domain<Dim>::Domain(const Grid<Dim>& g, const Sides<Dim>& s)
       beyond(grid.layout(), Beyond::nothing),
       side_velocities(grid, sides) {
   for (int d = 0; d < Dim; ++d) {
-    const auto closed = [&](int side) { return grid.at_boundary(d, side) && !is_passable(sides.at(d, side)); };
-    const bool on_axis = d == 0 && grid.axisymmetric() && grid.global_faces(0).front() == 0;
-    if (closed(0) || (on_axis && grid.at_boundary(0, 0))) closed_[d].low = 0;
-    if (closed(1)) closed_[d].high = grid.owned_cells()[d];
+    const int ends[] = {0, grid.owned_cells()[d]};
+    const auto closed = [&](int side) {
+      const bool no_face = grid.area(d, shifted(Index<Dim>{}, d, ends[side])) == 0;
+      return grid.at_boundary(d, side) && (no_face || !is_passable(sides.at(d, side)));
+    };
+    if (closed(0)) closed_[d].low = ends[0];
+    if (closed(1)) closed_[d].high = ends[1];
   }
   const auto mark = [&](Beyond what) {
     return [this, what](int d, int side) {

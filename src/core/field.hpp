@@ -21,8 +21,8 @@ template <class T>
 struct UntouchedAllocator : std::allocator<T> {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
   template <class U>
-  struct rebind {
-    using other = UntouchedAllocator<U>;
+  struct rebind {                         // NOLINT(readability-identifier-naming): the standard's names
+    using other = UntouchedAllocator<U>;  // NOLINT(readability-identifier-naming)
   };
   UntouchedAllocator() = default;
   template <class U>

@@ -80,7 +80,8 @@ void Grid<Dim>::store_axis(int d) {
   const auto position = [&](int i) {
     if (periodic_[d]) {
       const int inside = (i % n_global + n_global) % n_global;
-      return global[at(inside)] + (i - inside) / n_global * length;
+      const int periods = (i - inside) / n_global;
+      return global[at(inside)] + periods * length;
     }
     // An axis of one cell has no second width to mirror and repeats its only one.
     if (i < -n_global) return global.front() - length * -i / n_global;

@@ -21,7 +21,7 @@ inline constexpr int pack_width = 2;
 #endif
 
 /// Vector extension of g++ and clang: arithmetic lane by lane, also with plain numbers.
-typedef double Pack __attribute__((vector_size(8 * pack_width)));
+typedef double Pack __attribute__((vector_size(8 * pack_width)));  // NOLINT(modernize-use-using): g++ wants it so
 
 /// How many numbers a Real holds.
 template <class Real>

@@ -25,13 +25,14 @@ class SparseField {
   template <int Dim, class Candidate, class Find>
   void find(const Layout<Dim>& layout, const Box<Dim>& box, Candidate&& candidate, Find&& find) {
     number_.fill(none);
+    for_each<At>(layout, box, [&](At at, const Index<Dim>& i) { number_[at] = candidate(at, i) ? 0 : none; });
     int count = 0;  // in order of the points, whatever the number of threads: serial
     const Rows<Dim> rows(layout, box);
     for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
       const std::ptrdiff_t start = rows.start(r);
-      const Index<Dim> first = layout.multi(start);
       for (int i = 0; i < rows.length; ++i) {
-        if (candidate(At{start + i}, shifted(first, 0, i))) number_[At{start + i}] = count++;
+        int& number = number_[At{start + i}];
+        if (number != none) number = count++;
       }
     }
     values_.assign(static_cast<std::size_t>(count), T{});

@@ -44,7 +44,8 @@ class DualMesh {
     DualElement<Dim, Real> e;
     const auto along_x = [&i](const std::vector<double>& values, int ahead) {
       Real x;
-      std::memcpy(&x, &values[static_cast<std::size_t>(i[0] + ahead)], sizeof(Real));
+      const int first = i[0] + ahead;
+      std::memcpy(&x, &values[static_cast<std::size_t>(first)], sizeof(Real));
       return x;
     };
     const Axis& x = axes_[0];

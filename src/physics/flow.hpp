@@ -63,7 +63,7 @@ struct StepInProgress {
   FaceScalars<Dim>* u_mac;           ///< normal velocities on faces; null once convection is done
   CellVectors<Dim>& momentum_tilde;  ///< after parts 3 and 4; lies where next.u is from part 6 on
   CellVectors<Dim>& u_bar;           ///< after parts 5 to 7; lies in next.acceleration
-  State<Dim>& next;                  ///< fractions from part 3 on, velocities from part 6 on
+  State<Dim>& next;  ///< fractions from part 3 on, velocities from 6 on, the pressure after 7; no sizes before
 };
 
 /// Called at the end of every phase, twice for convection, which goes on after the MAC projection.
@@ -111,8 +111,9 @@ class Flow {
   void resume(std::vector<double> escaped);
   /// As resume(), in place of a flow on another grid: with its largest energy so far, its watcher and what has escaped.
   void resume_in_place_of(const Flow& other);
-  /// Advances by dt. The state is left as it was when this throws.
-  /// \throws NumericalError when a solve fails, a value is not finite, or volume or energy are not kept
+  /// Advances by dt. The state is left as it was when this throws NumericalError; after anything else, what follows
+  /// from the state (total() and the like) may be that of the step in progress. \throws NumericalError when a solve
+  /// fails, a value is not finite, or volume or energy are not kept
   StepReport advance(double dt);
   /// Where the last step failed: what it had come to, and what it started from where it had not come to anything; else
   /// null.
@@ -141,7 +142,7 @@ class Flow {
   void project(double dt, StepReport& report);
   /// The step itself: writes next_, then makes it the state.
   StepReport step(double dt);
-  /// Completes failed_attempt(), and clears or restores the work arrays that outlive a step.
+  /// Completes failed_attempt(), and clears or restores the mixture, elements and work arrays that outlive a step.
   void leave_failed_step(double dt);
 
   Domain<Dim> domain_;

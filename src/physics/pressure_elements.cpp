@@ -43,7 +43,7 @@ class Edges {
  public:
   Edges(const Domain<Dim>& domain, const std::vector<Species>& species, const Fractions& phi,
         const Interfaces<Dim>& interfaces)
-      : grid_(domain.grid), corners_(domain.layout()), species_(species), phi_(phi), interfaces_(interfaces) {
+      : corners_(domain.layout()), species_(species), phi_(phi), interfaces_(interfaces) {
     for (const Species& s : species) negligible_ = std::min(negligible_, negligible_filling * s.density);
   }
 
@@ -90,7 +90,6 @@ class Edges {
     }
   }
 
-  const Grid<Dim>& grid_;
   Corners<Dim> corners_;
   const std::vector<Species>& species_;
   const Fractions& phi_;

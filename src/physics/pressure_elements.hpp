@@ -56,7 +56,7 @@ template <int Dim>
 struct PressureElements {
   CellMask bears;  ///< cells in which the pressure's gradient acts
   NodeMask free;   ///< nodes whose pressure is solved for
-  CellMask cut;    ///< cells with an edge whose mass is not even
+  CellMask cut;    ///< owned cells with an edge whose mass is not even
   /// Weight of the low node of the edge that begins at a node, per axis, where a cell at one of these edges is cut by a
   /// plane. Elsewhere it is that of the linear element.
   SparseField<Node, Vec<Dim>> lever;

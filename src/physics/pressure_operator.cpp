@@ -26,7 +26,8 @@ double even_stiffness(const Grid<Dim>& grid, const Index<Dim>& i, int a, int b) 
 
 constexpr std::size_t in_lower_half(int a, int b) {
   const int row = std::max(a, b);
-  return static_cast<std::size_t>(row * (row + 1) / 2 + std::min(a, b));
+  const int place = row * (row + 1) / 2 + std::min(a, b);
+  return static_cast<std::size_t>(place);
 }
 
 }  // namespace
@@ -147,7 +148,8 @@ void PressureOperator<Dim>::add_even_cells(const NodeField& x, const RowFactors&
   });
   // From here on element i lies below node i, element i + 1 above it.
   const double* const scale = &scale_[Cell{start - 1} + factors.row[0]];
-  const auto element = static_cast<std::size_t>(first - 1 + ghosts);
+  const int below_first = first - 1 + ghosts;
+  const auto element = static_cast<std::size_t>(below_first);
   const double* const k_x = &along_x_.stiffness[element];
   const double* const m_low = &along_x_.mass_low[element];
   const double* const m_across = &along_x_.mass_across[element];

@@ -11,8 +11,8 @@ namespace quicksand {
 
 namespace {
 
-/// Whether a system on a box of nodes is solved without its matrix: where PFMG of the star part would precede conjugate
-/// gradients anyway.
+/// Whether a system on a box of nodes is solved without its matrix, behind PFMG of the star part: in space, where
+/// factors do not suit.
 template <int Dim>
 bool suits_operator(const Layout<Dim>& layout, const Box<Dim>& box) {
   for (int d = 0; d < Dim; ++d) {
@@ -238,7 +238,9 @@ SolveReport solve_pressure(const Domain<Dim>& domain, Projected what, double mem
       assemble_with(matrix, WholeMatrix<Dim>(matrix));
       matrix.wrap_couplings();
       const int before = report.iterations;
-      report = solve(matrix, work.rhs, work.increment, options);
+      SolveOptions next = options;
+      if (before > 0) next.method = Method::smg;  // PFMG has had its chance
+      report = solve(matrix, work.rhs, work.increment, next);
       report.iterations += before;
     }
     require_converged(report, "pressure projection");

@@ -186,7 +186,9 @@ std::optional<double> solve_linear_stress(const ViscousProblem<Dim>& p, double s
   }
   if (viscosity > stiff * inertia) return std::nullopt;
   report.method = "conjugate gradients";
-  if (start <= p.target) return start;
+  // Below round-off no target is reached.
+  const double enough = std::max(p.target, round_off * p.speed);
+  if (start <= enough) return start;
   const auto apply = [&](CellVectors<Dim>& v, CellVectors<Dim>& y) { apply_linear_stress(p.domain, v, p.dt, work, y); };
   const auto precondition = [&](const CellVectors<Dim>& r, CellVectors<Dim>& z) {
     for (int d = 0; d < Dim; ++d) for_each<Cell>(layout, box, [&](Cell c) { z[d][c] = r[d][c] / diagonal[d][c]; });
@@ -197,12 +199,12 @@ std::optional<double> solve_linear_stress(const ViscousProblem<Dim>& p, double s
   CellVectors<Dim> direction(layout), z(layout);
   SolveReport linear;
   double reached = start;
-  for (int round = 0; round < 3 && reached > p.target && linear.iterations < most_conjugate; ++round) {
-    descend<Cell>(layout, box, apply, precondition, -1.0, r, u, direction, z, p.target, most_conjugate, norm, linear);
+  for (int round = 0; round < 3 && reached > enough && linear.iterations < most_conjugate; ++round) {
+    descend<Cell>(layout, box, apply, precondition, -1.0, r, u, direction, z, enough, most_conjugate, norm, linear);
     reached = progress_at(p, u).norm;
   }
   report.linear_iterations = linear.iterations;
-  if (!(reached <= p.target)) return std::nullopt;
+  if (!(reached <= enough)) return std::nullopt;
   report.iterations = 1;
   return reached;
 }

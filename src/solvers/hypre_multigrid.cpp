@@ -292,6 +292,7 @@ struct Multigrid<Dim, At>::Hierarchy {
       HYPRE_StructPFMGSetTol(solver_, 0.0);
       HYPRE_StructPFMGSetZeroGuess(solver_);
       HYPRE_StructPFMGSetRelaxType(solver_, relaxation);
+      // Coarse matrices by Galerkin, as is the default: points without couplings then keep a zero exactly.
       HYPRE_StructPFMGSetNumPreRelax(solver_, 1);
       HYPRE_StructPFMGSetNumPostRelax(solver_, 1);
       HYPRE_StructPFMGSetLogging(solver_, 0);

@@ -18,13 +18,13 @@ TEST(CollidingSlabs, GoOnTogetherWithTheExactSpeedAndEnergy) {
   EXPECT_NEAR(diagnose(flow).kinetic_energy, 0.225 * thickness, 1e-12);
   testing::run(config, flow);
   const Grid<2>& grid = flow.domain().grid;
-  double slowest = 1;
-  double fastest = 0;
-  for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c) {
-    if (flow.total()[c] < empty_fraction) return;
-    slowest = std::min(slowest, flow.state().u[0][c]);
-    fastest = std::max(fastest, flow.state().u[0][c]);
-  });
+  const auto largest = [&](double floor, double sign) {
+    return maximum<Cell>(grid.layout(), grid.cells(), floor, [&](Cell c) {
+      return flow.total()[c] < empty_fraction ? floor : sign * flow.state().u[0][c];
+    });
+  };
+  const double slowest = -largest(-1, -1);
+  const double fastest = largest(0, 1);
   testing::expect_absolute({"colliding slabs", "least speed afterwards", "conservation"}, slowest, 0.5, 1e-6);
   testing::expect_absolute({"colliding slabs", "largest speed afterwards", "conservation"}, fastest, 0.5, 1e-6);
   const Diagnostics end = diagnose(flow);
