@@ -41,7 +41,7 @@ constexpr Remark exit_codes[] = {
 };
 
 constexpr Remark environment[] = {
-    {"OMP_NUM_THREADS", "number of threads where --threads does not say"},
+    {"OMP_NUM_THREADS", "most threads where --threads does not say"},
     {"UDUNITS2_XML_PATH", "database of units in place of the one installed with UDUNITS-2"},
 };
 
@@ -132,7 +132,8 @@ const std::vector<CommandHelp>& command_table() {
         {"--output", "DIR", "write results to DIR instead of the case's output.directory"},
         {"--overwrite", nullptr, "replace the results in an output folder that is not empty; other files stay"},
         {"--resume", nullptr, "go on from the last checkpoint in the output folder, to the same results"},
-        {"--threads", "N", "number of threads; results do not depend on it"},
+        {"--threads", "N", "most threads; fewer are used while they are faster; results do not depend on it"},
+        {"--fixed-threads", nullptr, "use that number always, for measurements"},
         {"--quiet", nullptr, "no warnings, no progress"}},
        {"run configs/slug/case_e.yaml", "run mud.yaml --set time.end=0.5 --output results/short",
         "run mud.yaml --resume"}},

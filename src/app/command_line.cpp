@@ -93,9 +93,13 @@ void read_option(const std::string& argument, ArgumentReader& reader, const Comm
   } else if (has_value) {
     throw InputError(option + " takes no value");
   } else {
-    const std::pair<const char*, bool*> flags[] = {{"--overwrite", &line.overwrite}, {"--resume", &line.run.resume},
-                                                   {"--quiet", &line.run.quiet},     {"--explain", &line.explain},
-                                                   {"--markdown", &line.markdown},   {"--strict", &line.strict}};
+    const std::pair<const char*, bool*> flags[] = {{"--overwrite", &line.overwrite},
+                                                   {"--resume", &line.run.resume},
+                                                   {"--quiet", &line.run.quiet},
+                                                   {"--explain", &line.explain},
+                                                   {"--markdown", &line.markdown},
+                                                   {"--strict", &line.strict},
+                                                   {"--fixed-threads", &line.run.fixed_threads}};
     for (const auto& [name, value] : flags) {
       if (option == name) *value = true;
     }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "app/progress.hpp"
 #include "app/result_writer.hpp"
 #include "app/step_retry.hpp"
+#include "app/thread_choice.hpp"
 #include "core/errors.hpp"
 #include "core/threads.hpp"
 #include "physics/remap.hpp"
@@ -30,6 +32,7 @@ struct Run {
   TimeControl control;
   ResultWriter<Dim> writer;
   Progress& progress;
+  ThreadChoice threads;
   std::vector<GasEvent> remap_events{};  ///< since the last step
 };
 
@@ -44,12 +47,15 @@ template <int Dim>
 bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
   const State<Dim>& state = flow.state();
   const double stable = stable_step(flow, run.control.cfl());
+  set_threads(run.threads.next());
   StepReport report =
       advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable),
                            {run.config.guard.halvings, run.control.least_step()}, [&](const std::string& failure) {
                              run.progress.say(failure);
                              run.memory.statistics.count_retry();
                            });
+  run.threads.step_took(std::accumulate(report.seconds.begin(), report.seconds.end(), 0.0));
+  set_threads(run.threads.most());
   report.gas.insert(report.gas.begin(), run.remap_events.begin(), run.remap_events.end());
   run.remap_events.clear();
   if (run.control.beyond_limit(state.dt, stable) && run.memory.statistics.count_step_beyond_cfl() == 1) {
@@ -194,7 +200,12 @@ int run_in(const CaseConfig& config, const RunOptions& options) {
                         RunStatistics(species)};
   ResultWriter<Dim> writer(config, folder, resume ? std::optional(resume->head.step) : std::nullopt);
   TimeControl control(config.time, config.output.fields, stage_ends);
-  Run<Dim> run{config, std::move(memory), std::move(control), std::move(writer), progress};
+  Run<Dim> run{config,
+               std::move(memory),
+               std::move(control),
+               std::move(writer),
+               progress,
+               ThreadChoice(thread_count(), options.fixed_threads)};
   bool finished = false;
   try {
     finished = march(run, resume ? &*resume : nullptr);
@@ -205,6 +216,7 @@ int run_in(const CaseConfig& config, const RunOptions& options) {
     summarize_failure(run, error.what());
     throw;
   }
+  run.memory.statistics.note_threads(run.threads.mean());
   if (run.memory.steady.wanted()) {
     run.memory.statistics.note_steadiness(run.memory.is_steady, run.memory.steady.unsteadiness());
     if (finished) run.progress.say(steadiness_text(run));

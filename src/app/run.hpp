@@ -7,9 +7,10 @@ namespace quicksand {
 
 /// How a case is run.
 struct RunOptions {
-  int threads = 0;      ///< 0: as many as OpenMP chooses
-  bool quiet = false;   ///< no progress
-  bool resume = false;  ///< go on from the last checkpoint in the output folder
+  int threads = 0;             ///< at most; 0: as many as OpenMP chooses
+  bool fixed_threads = false;  ///< always so many
+  bool quiet = false;          ///< no progress
+  bool resume = false;         ///< go on from the last checkpoint in the output folder
 };
 
 /// Runs a case to its end, or to the end of the step in which SIGINT or SIGTERM arrives, with a checkpoint then, and

@@ -132,6 +132,7 @@ Json RunStatistics::summary(const std::string& status, const std::string& messag
   json["wall_seconds"] = wall;
   json["cell_steps_per_second"] = wall > 0 ? cell_steps_ / wall : 0.0;
   json["threads"] = thread_count();
+  if (mean_threads_) json["mean_threads"] = *mean_threads_;
   json["peak_memory_MiB"] = peak_memory();
   for (std::size_t i = 0; i < species_.size(); ++i) json["volume_error"][species_[i]] = volume_error_[i];
   json["energy_increase"]["redistribution"] = redistribution_rise_;

@@ -37,6 +37,9 @@ class RunStatistics {
   /// For runs that end when they are steady: whether they are, and SteadyState::unsteadiness().
   void note_steadiness(bool steady, double unsteadiness) { steadiness_ = {steady, unsteadiness}; }
 
+  /// Mean number of threads since the run was started or resumed.
+  void note_threads(double mean) { mean_threads_ = mean; }
+
   long steps() const { return steps_; }
   /// Hands everything over, the time on the wall so far included.
   void exchange(Archive& archive);
@@ -70,6 +73,7 @@ class RunStatistics {
   long steps_beyond_cfl_ = 0;
   long fallbacks_ = 0;
   std::optional<std::pair<bool, double>> steadiness_;
+  std::optional<double> mean_threads_;
   long stagnated_ = 0;
   double largest_gap_ = 0;
   std::vector<double> initial_volume_;

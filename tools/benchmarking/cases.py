@@ -78,7 +78,7 @@ class Runner:
     def run_once(self, job, threads):
         out = self.folder / "result"
         command = [self.program, "run", self.case_file(job), "--output", out, "--overwrite", "--quiet", "--threads",
-                   str(threads), "--set", "output.fields.every=1000"]
+                   str(threads), "--fixed-threads", "--set", "output.fields.every=1000"]
         for setting in job.settings:
             command += ["--set", setting]
         environment = dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_PROC_BIND="true")

@@ -1,0 +1,66 @@
+#include "app/thread_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace quicksand {
+namespace {
+
+/// Seconds of `steps` steps of which each takes cost(threads) seconds.
+template <class Cost>
+double run(ThreadChoice& choice, int steps, Cost&& cost) {
+  double seconds = 0;
+  for (int n = 0; n < steps; ++n) {
+    const double took = cost(choice.next());
+    seconds += took;
+    choice.step_took(took);
+  }
+  return seconds;
+}
+
+TEST(ThreadChoice, KeepsAllThreadsWhereTheyAreFastest) {
+  ThreadChoice choice(8, false);
+  const double seconds = run(choice, 2000, [](int threads) { return 1.0 / threads; });
+  EXPECT_LT(seconds, 1.02 * 2000 / 8);
+  EXPECT_GT(choice.mean(), 7.9);
+}
+
+TEST(ThreadChoice, GoesDownToOneWhereThatIsFastest) {
+  ThreadChoice choice(8, false);
+  const double seconds = run(choice, 2000, [](int threads) { return 1.0 * threads; });
+  EXPECT_LT(seconds, 1.1 * 2000);
+  EXPECT_EQ(choice.next(), 1);
+}
+
+TEST(ThreadChoice, FindsANumberBetween) {
+  ThreadChoice choice(12, false);  // tries 12, 6, 3, 2, 1
+  const auto cost = [](int threads) { return 1 + 0.3 * std::abs(threads - 3); };
+  run(choice, 300, cost);
+  EXPECT_LT(run(choice, 2000, cost), 1.03 * 2000);
+}
+
+TEST(ThreadChoice, FollowsWhatChanges) {
+  ThreadChoice choice(2, false);
+  run(choice, 1000, [](int threads) { return 1.0 * threads; });
+  EXPECT_EQ(choice.next(), 1);
+  run(choice, 1100, [](int threads) { return 1.0 / threads; });  // the longest time between two trials, twice
+  EXPECT_LT(run(choice, 1000, [](int threads) { return 1.0 / threads; }), 1.02 * 500);
+}
+
+TEST(ThreadChoice, SmallDifferencesChangeNothing) {
+  ThreadChoice choice(2, false);
+  run(choice, 1000, [](int threads) { return threads == 2 ? 1.0 : 0.97; });
+  EXPECT_GT(choice.mean(), 1.95);
+}
+
+TEST(ThreadChoice, IsNoneWhereTheNumberIsFixed) {
+  for (const int most : {1, 4}) {
+    ThreadChoice choice(most, true);
+    run(choice, 100, [](int threads) { return 1.0 * threads; });
+    EXPECT_EQ(choice.mean(), most);
+  }
+}
+
+}  // namespace
+}  // namespace quicksand
