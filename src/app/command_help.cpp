@@ -35,7 +35,7 @@ constexpr Remark exit_codes[] = {
     {"0", "finished"},
     {"1", "internal error"},
     {"2", "bad input: command line, case file, or a result folder that is not empty"},
-    {"3", "numerical failure or out of memory; the last good state is written"},
+    {"3", "numerical failure, after which the last good state is written, or out of memory"},
     {"4", "a file could not be read or written"},
     {"128 + N", "ended by signal N after a whole step, with fields and a checkpoint written"},
 };

@@ -52,11 +52,9 @@ CellField gas_region_field(const Flow<Dim>& flow) {
   return region;
 }
 
-#define QUICKSAND_INSTANTIATE(Dim)                                             \
-  template std::vector<BubbleMeasures<Dim>> measure_bubbles(const Flow<Dim>&); \
-  template CellField gas_region_field(const Flow<Dim>&);
-QUICKSAND_INSTANTIATE(2)
-QUICKSAND_INSTANTIATE(3)
-#undef QUICKSAND_INSTANTIATE
+template std::vector<BubbleMeasures<2>> measure_bubbles(const Flow<2>&);
+template std::vector<BubbleMeasures<3>> measure_bubbles(const Flow<3>&);
+template CellField gas_region_field(const Flow<2>&);
+template CellField gas_region_field(const Flow<3>&);
 
 }  // namespace quicksand

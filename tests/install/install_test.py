@@ -48,7 +48,7 @@ class Install(unittest.TestCase):
 
     def test_manual_names_every_command_and_option(self):
         page = (self.prefix / "share/man/man1/quicksand.1").read_text().replace("\\-", "-")
-        words = set(re.findall(r"^  quicksand ([a-z]+)|(--[a-z]+)", output_of(self.program, "--help"), re.MULTILINE))
+        words = set(re.findall(r"^  quicksand ([a-z]+)|(--[a-z-]+)", output_of(self.program, "--help"), re.MULTILINE))
         self.assertGreater(len(words), 12)
         for command, option in words:
             self.assertIn(f".SS {command}" if command else f"\\fB{option}\\fR", page)
