@@ -17,7 +17,7 @@ endif()
 option(QUICKSAND_NATIVE "Compile for this machine's processor" ON)
 option(QUICKSAND_WERROR "Warnings are errors (by default with the compilers the code is tested with)" ${tested_compiler})
 set(QUICKSAND_SANITIZE "" CACHE STRING "Sanitizers, such as address,undefined or thread")
-set(QUICKSAND_SMALLEST_THREADED_LOOP 8192 CACHE STRING "Loops of less work, in points of a simple loop, run on one thread; less is for tests")
+set(QUICKSAND_SMALLEST_THREADED_LOOP 2048 CACHE STRING "Loops of less work, in points of a simple loop, run on one thread; less is for tests")
 mark_as_advanced(QUICKSAND_SMALLEST_THREADED_LOOP)
 
 add_library(quicksand_options INTERFACE)

@@ -3,6 +3,10 @@
 /// Packs: a few numbers side by side that are computed with at once, in one register of the processor. Templates on a
 /// type `Real` work on one number (double) or on a pack of them, with the same result in every lane, bit by bit. Sums
 /// over the elements around a point may be taken in another order in packs.
+#if defined(__AVX512F__) || defined(__FMA__)
+#include <immintrin.h>
+#endif
+
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -40,6 +44,14 @@ inline bool any(const Pack& x) {
   return found;
 }
 
+/// The numbers from a place in an array on.
+inline Pack load_pack(const double* place) {
+  Pack x;
+  std::memcpy(&x, place, sizeof x);
+  return x;
+}
+inline void store_pack(const Pack& x, double* place) { std::memcpy(place, &x, sizeof x); }
+
 /// Values at a position and those that follow it along x.
 template <class Real, class At>
 Real load(const Field<At>& field, At at) {
@@ -59,6 +71,24 @@ inline Pack square_root(const Pack& x) {
   Pack root;
   for (int l = 0; l < pack_width; ++l) root[l] = std::sqrt(x[l]);
   return root;
+}
+
+/// a - b c, rounded once where the processor can.
+inline double minus_product(double a, double b, double c) {
+#if defined(__FMA__)
+  return std::fma(-b, c, a);
+#else
+  return a - b * c;
+#endif
+}
+inline Pack minus_product(const Pack& a, double b, const Pack& c) {
+#if defined(__AVX512F__)
+  return _mm512_fnmadd_pd(_mm512_set1_pd(b), c, a);
+#elif defined(__FMA__)
+  return _mm256_fnmadd_pd(_mm256_set1_pd(b), c, a);
+#else
+  return a - b * c;
+#endif
 }
 
 /// Moves every number to the next lane, 0 to the first.

@@ -28,13 +28,15 @@ void untie() {
 }  // namespace
 
 void start_with_patient_threads(char** arguments) {
-  // libgomp's count of rounds; a loop of the smallest size that is shared among threads takes about as long.
-  constexpr const char* spin_rounds = "10000";
+  // libgomp's count of rounds: a millisecond, as longer parts of a step on one thread take. Waking a thread takes a
+  // tenth.
+  constexpr const char* spin_rounds = "100000";
+  constexpr const char* milliseconds = "1";  // for clang's library
   for (const char* name : {"OMP_WAIT_POLICY", "GOMP_SPINCOUNT", "KMP_BLOCKTIME"}) {
     if (std::getenv(name) != nullptr) return;
   }
   ::setenv("GOMP_SPINCOUNT", spin_rounds, 1);
-  ::setenv("KMP_BLOCKTIME", "0", 1);  // clang's library
+  ::setenv("KMP_BLOCKTIME", milliseconds, 1);
   untie();
   ::execv("/proc/self/exe", arguments);
   // Where that is not possible the program goes on as it is.

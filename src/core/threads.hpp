@@ -5,7 +5,7 @@
 
 namespace quicksand {
 
-/// Lets threads that wait for work give up their processor after some microseconds, unless the environment says how
+/// Lets threads that wait for work give up their processor after a millisecond, unless the environment says how
 /// they are to wait. OpenMP reads this before main() begins, so the program starts itself anew once.
 ///
 /// Threads that spin, as is the custom, slow each other and all other programs down on a busy machine: two may then

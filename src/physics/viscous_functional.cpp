@@ -237,10 +237,9 @@ template <int Dim>
 void apply_linear_stress(const Domain<Dim>& domain, const CellVectors<Dim>& v, double dt, DiffusionWork<Dim>& work,
                          CellVectors<Dim>& y) {
   const Box<Dim>& cells = work.matrix.box();
-  for (int d = 0; d < Dim; ++d) {
-    const CellField& mass = work.mass[d];
-    for_each<Cell>(domain.layout(), cells, [&](Cell c) { y[d][c] = (mass[c] > 0 ? mass[c] : 1.0) * v[d][c]; });
-  }
+  for_each<Cell>(domain.layout(), cells, [&](Cell c) {
+    for (int d = 0; d < Dim; ++d) y[d][c] = (work.mass[d][c] > 0 ? work.mass[d][c] : 1.0) * v[d][c];
+  });
   const Box<Dim> elements = elements_around(domain.grid, cells);
   for_each_active_element(domain.layout(), elements, work.elements, [&]<class Element>(const Element& e) {
     using Real = typename Element::Number;
@@ -259,10 +258,9 @@ template <int Dim>
 void linear_stress_diagonal(const Domain<Dim>& domain, double dt, DiffusionWork<Dim>& work,
                             CellVectors<Dim>& diagonal) {
   const Box<Dim>& cells = work.matrix.box();
-  for (int d = 0; d < Dim; ++d) {
-    const CellField& mass = work.mass[d];
-    for_each<Cell>(domain.layout(), cells, [&](Cell c) { diagonal[d][c] = mass[c] > 0 ? mass[c] : 1.0; });
-  }
+  for_each<Cell>(domain.layout(), cells, [&](Cell c) {
+    for (int d = 0; d < Dim; ++d) diagonal[d][c] = work.mass[d][c] > 0 ? work.mass[d][c] : 1.0;
+  });
   const Box<Dim> elements = elements_around(domain.grid, cells);
   for_each_active_element(domain.layout(), elements, work.elements, [&]<class Element>(const Element& e) {
     using Real = typename Element::Number;

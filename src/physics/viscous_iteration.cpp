@@ -143,13 +143,13 @@ bool iterate_picard(const ViscousProblem<Dim>& p, int max_iterations, bool accel
 
 template <int Dim>
 double gradient_norm(const Domain<Dim>& domain, const DiffusionWork<Dim>& work, const CellVectors<Dim>& gradient) {
-  double square = 0;
-  for (int d = 0; d < Dim; ++d) {
-    square += sum<Cell>(domain.layout(), work.matrix.box(), [&](Cell c) {
-      return work.mass[d][c] > 0 ? gradient[d][c] * gradient[d][c] / work.mass[d][c] : 0.0;
-    });
-  }
-  return std::sqrt(square);
+  return std::sqrt(sum<Cell>(domain.layout(), work.matrix.box(), [&](Cell c) {
+    double square = 0;
+    for (int d = 0; d < Dim; ++d) {
+      square += work.mass[d][c] > 0 ? gradient[d][c] * gradient[d][c] / work.mass[d][c] : 0.0;
+    }
+    return square;
+  }));
 }
 
 template <int Dim>
@@ -191,7 +191,9 @@ std::optional<double> solve_linear_stress(const ViscousProblem<Dim>& p, double s
   if (start <= enough) return start;
   const auto apply = [&](CellVectors<Dim>& v, CellVectors<Dim>& y) { apply_linear_stress(p.domain, v, p.dt, work, y); };
   const auto precondition = [&](const CellVectors<Dim>& r, CellVectors<Dim>& z) {
-    for (int d = 0; d < Dim; ++d) for_each<Cell>(layout, box, [&](Cell c) { z[d][c] = r[d][c] / diagonal[d][c]; });
+    for_each<Cell>(layout, box, [&](Cell c) {
+      for (int d = 0; d < Dim; ++d) z[d][c] = r[d][c] / diagonal[d][c];
+    });
   };
   const auto norm = [&](const CellVectors<Dim>& r) { return gradient_norm(p.domain, work, r); };
   // The gradient is A u less what it should be.

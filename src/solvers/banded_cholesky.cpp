@@ -1,7 +1,7 @@
 #include "solvers/banded_cholesky.hpp"
 
-#include <Eigen/Dense>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 namespace quicksand {
@@ -36,7 +36,7 @@ int BandOrder<Dim>::number(Index<Dim> i) const {
 
 namespace {
 
-/// Columns that are eliminated together: their updates of another column take one pass over it.
+/// Columns that are eliminated together, and as many that these update in one pass over the rows.
 constexpr int panel = 4;
 /// A band has two halves where it is so many times as long as wide.
 constexpr int least_slenderness = 8;
@@ -44,72 +44,132 @@ constexpr int least_slenderness = 8;
 /// microseconds, because much that is serial comes between them.
 constexpr double operations_per_point = 50;
 
+/// First row of the pack that a row lies in.
+int pack_of(int row) { return row / pack_width * pack_width; }
+
+/// `x` where the rows of its pack are `first` or more, else `before`.
+Pack from_row(int first, int row, const Pack& x, const Pack& before) {
+  Pack number;
+  for (int l = 0; l < pack_width; ++l) number[l] = l;
+  return number >= static_cast<double>(first - row) ? x : before;
+}
+
+/// A pack of rows of every column of a panel.
+struct PanelRows {
+  Pack of_column[panel];
+
+  PanelRows(const double* const (&column)[panel], int row) {
+    for (int m = 0; m < panel; ++m) of_column[m] = load_pack(column[m] + row);
+  }
+};
+
+/// x - factor . rows
+Pack without(Pack x, const double (&factor)[panel], const PanelRows& rows) {
+  for (int m = 0; m < panel; ++m) x = minus_product(x, factor[m], rows.of_column[m]);
+  return x;
+}
+
 }  // namespace
 
-// Columns near the end reach beyond it, and those of a panel beyond the band: zeros there keep the loops free of tests.
 BandedCholesky::Band::Band(int size, int bandwidth)
     : bandwidth_(bandwidth),
-      stride_(static_cast<std::size_t>(bandwidth + panel)),
-      values_(static_cast<std::size_t>(size + bandwidth + panel) * stride_) {}
+      stride_(pack_of(bandwidth + panel + 2 * pack_width - 3)),
+      values_(static_cast<std::size_t>((size + excess(bandwidth) + 1) * (stride_ + 1) / pack_width + 1)) {}
+
+int BandedCholesky::Band::excess(int bandwidth) { return bandwidth + panel + pack_width; }
+
+/// Eliminates the columns of a panel from each other. \param inverse  is set to those of the pivots
+bool BandedCholesky::Band::eliminate_panel(int first, int count, double* inverse) {
+  const int end = first + count + bandwidth_;
+  for (int j = first; j < first + count; ++j) {
+    double* const own = column(j);
+    double factor[panel];
+    for (int l = first; l < j; ++l) factor[l - first] = column(l)[j] * inverse[l - first];
+    for (int row = j; row < end; row += pack_width) {
+      Pack x = load_pack(own + row);
+      for (int l = first; l < j; ++l) x = minus_product(x, factor[l - first], load_pack(column(l) + row));
+      store_pack(x, own + row);
+    }
+    if (!(own[j] > 0) || !std::isfinite(own[j])) return false;
+    inverse[j - first] = 1 / own[j];
+  }
+  return true;
+}
 
 bool BandedCholesky::Band::eliminate(int first, int last) {
   for (int j = first; j < last; j += panel) {
     const int count = std::min(panel, last - j);
-    const double* column[panel];  // from the panel's first row on, as far as the column has it
-    double diagonal[panel];
-    for (int m = 0; m < count; ++m) {
-      double* const own = &entry(j + m, 0);
-      for (int l = 0; l < m; ++l) {
-        const double factor = column[l][m] / diagonal[l];
-        for (int i = 0; i <= bandwidth_ - (m - l); ++i) own[i] -= factor * column[l][m + i];
-      }
-      column[m] = own - m;
-      diagonal[m] = own[0];
-      if (!(diagonal[m] > 0) || !std::isfinite(diagonal[m])) return false;
-    }
-    for (int m = count; m < panel; ++m) {
-      column[m] = column[0];
-      diagonal[m] = INFINITY;
-    }
-    for (int k = count; k < bandwidth_ + count; ++k) {
-      double factor[panel];
+    double inverse[panel] = {};  // 0 for columns that are not of the panel, which so have no effect
+    if (!eliminate_panel(j, count, inverse)) return false;
+    const double* const source[panel] = {column(j), column(j + 1), column(j + 2), column(j + 3)};
+    const int end = j + count + bandwidth_;
+    for (int k = j + count; k < end; k += panel) {
+      double* const target[panel] = {column(k), column(k + 1), column(k + 2), column(k + 3)};
+      double factor[panel][panel];
       bool couples = false;
-      for (int m = 0; m < panel; ++m) {
-        factor[m] = column[m][k] / diagonal[m];
-        couples = couples || factor[m] != 0;
+      for (int q = 0; q < panel; ++q) {
+        for (int m = 0; m < panel; ++m) {
+          factor[q][m] = source[m][k + q] * inverse[m];
+          couples = couples || factor[q][m] != 0;
+        }
       }
       if (!couples) continue;
-      double* const target = &entry(j + k, 0);
-      const double* const c0 = column[0] + k;
-      const double* const c1 = column[1] + k;
-      const double* const c2 = column[2] + k;
-      const double* const c3 = column[3] + k;
-      const int rows = bandwidth_ + count - k;
-      for (int i = 0; i < rows; ++i) {
-        target[i] = target[i] - factor[0] * c0[i] - factor[1] * c1[i] - factor[2] * c2[i] - factor[3] * c3[i];
+      int row = pack_of(k);
+      for (; row < k + panel - 1; row += pack_width) {  // some of the targets begin further down
+        const PanelRows rows(source, row);
+        for (int q = 0; q < panel; ++q) {
+          const Pack x = load_pack(target[q] + row);
+          store_pack(from_row(k + q, row, without(x, factor[q], rows), x), target[q] + row);
+        }
+      }
+      for (; row < end; row += pack_width) {
+        const PanelRows rows(source, row);
+        for (int q = 0; q < panel; ++q) {
+          store_pack(without(load_pack(target[q] + row), factor[q], rows), target[q] + row);
+        }
       }
     }
     for (int m = 0; m < count; ++m) {
-      double* const own = &entry(j + m, 0);
-      for (int k = 1; k <= bandwidth_; ++k) own[k] /= diagonal[m];
+      double* const own = column(j + m);
+      for (int row = j + m + 1; row < end; row += pack_width) store_pack(load_pack(own + row) * inverse[m], own + row);
+      own[j + m] = inverse[m];
     }
   }
   return true;
 }
 
 void BandedCholesky::Band::substitute(int first, int last, double* x) const {
-  for (int j = first; j < last; ++j) {
-    const double* const column = &values_[static_cast<std::size_t>(j) * stride_];
-    double* const from = x + j;
-    for (int k = 1; k <= bandwidth_; ++k) from[k] -= column[k] * from[0];
+  for (int j = first; j < last; j += panel) {
+    const int count = std::min(panel, last - j);
+    const double* const source[panel] = {column(j), column(j + 1), column(j + 2), column(j + 3)};
+    double factor[panel] = {};
+    for (int m = 0; m < count; ++m) {
+      factor[m] = x[j + m];
+      for (int l = 0; l < m; ++l) factor[m] -= source[l][j + m] * factor[l];
+      x[j + m] = factor[m];
+    }
+    for (int row = j + count; row < j + count + bandwidth_; row += pack_width) {
+      store_pack(without(load_pack(x + row), factor, PanelRows(source, row)), x + row);
+    }
   }
 }
 
 void BandedCholesky::Band::substitute_back(int first, int last, double* x) const {
-  using Entries = Eigen::Map<const Eigen::VectorXd>;
-  for (int j = last - 1; j >= first; --j) {
-    const double* const column = &values_[static_cast<std::size_t>(j) * stride_];
-    x[j] = x[j] / column[0] - Entries(column + 1, bandwidth_).dot(Entries(x + j + 1, bandwidth_));
+  for (int end = last, count; end > first; end -= count) {
+    count = std::min(panel, end - first);
+    const int j = end - count;
+    const double* const source[panel] = {column(j), column(j + 1), column(j + 2), column(j + 3)};
+    Pack sum[panel] = {};
+    for (int row = end; row < end + bandwidth_; row += pack_width) {
+      const Pack known = load_pack(x + row);
+      for (int m = 0; m < panel; ++m) sum[m] += load_pack(source[m] + row) * known;
+    }
+    for (int m = count - 1; m >= 0; --m) {
+      double value = x[j + m] * source[m][j + m];
+      for (int l = 0; l < pack_width; ++l) value -= sum[m][l];
+      for (int l = m + 1; l < count; ++l) value -= source[m][j + l] * x[j + l];
+      x[j + m] = value;
+    }
   }
 }
 
@@ -149,7 +209,7 @@ void BandedCholesky::solve(std::vector<double>& x) const {
   std::vector<double> part[2];
   const bool halves = ends_[1] > 0;
   for (std::size_t half = 0; half < (halves ? 2 : 1); ++half) {
-    part[half].assign(static_cast<std::size_t>(unknowns(half) + bandwidth_), 0.0);
+    part[half].assign(static_cast<std::size_t>(unknowns(half) + Band::excess(bandwidth_)), 0.0);
   }
   std::copy_n(x.begin(), unknowns(0), part[0].begin());
   std::copy_n(x.rbegin(), ends_[1], part[1].begin());
@@ -159,7 +219,7 @@ void BandedCholesky::solve(std::vector<double>& x) const {
   double* const copy = part[1].data() + ends_[1];  // of the middle, from its end
   for (int a = 0; halves && a < middle_; ++a) middle[a] += copy[middle_ - 1 - a];
   band_[0].substitute(ends_[0], unknowns(0), part[0].data());
-  std::fill_n(middle + middle_, bandwidth_, 0.0);
+  std::fill_n(middle + middle_, Band::excess(bandwidth_), 0.0);
   band_[0].substitute_back(ends_[0], unknowns(0), part[0].data());
   if (halves) std::reverse_copy(middle, middle + middle_, copy);
   for_halves(operations, [&](std::size_t half) { band_[half].substitute_back(0, ends_[half], part[half].data()); });

@@ -8,6 +8,7 @@
 #include "core/field.hpp"
 #include "core/layout.hpp"
 #include "core/loop.hpp"
+#include "core/pack.hpp"
 
 namespace quicksand {
 
@@ -67,26 +68,34 @@ class BandedCholesky {
   void solve(std::vector<double>& x) const;
 
  private:
-  /// The lower triangle of a banded matrix, column by column from the diagonal down.
+  /// The lower triangle of a banded matrix, column by column from the diagonal down. Zeros beyond the band and the
+  /// matrix let loops take a pack of rows and a panel of columns at a time; rows of the same number lie at the same
+  /// place in their packs in all columns. An eliminated column holds a column of L and, on the diagonal, the inverse of
+  /// D's entry.
   class Band {
    public:
     Band() = default;
     /// Of values that are not set yet.
     Band(int size, int bandwidth);
-    void clear() { std::fill(values_.begin(), values_.end(), 0.0); }
-    double& entry(int column, int below) {
-      return values_[static_cast<std::size_t>(column) * stride_ + static_cast<std::size_t>(below)];
-    }
+    /// How many zeros must follow the unknowns in an array.
+    static int excess(int bandwidth);
+    void clear() { std::fill(values_.begin(), values_.end(), Pack{}); }
+    double& entry(int column, int below) { return this->column(column)[column + below]; }
     /// Eliminates the columns [first, last). Returns false where a pivot is not positive.
     bool eliminate(int first, int last);
-    /// Forward and backward substitution with the columns [first, last); x has bandwidth more entries than the matrix.
+    /// Forward and backward substitution with the columns [first, last).
     void substitute(int first, int last, double* x) const;
     void substitute_back(int first, int last, double* x) const;
 
    private:
+    /// Row i of column j is column(j)[i].
+    double* column(int j) { return reinterpret_cast<double*>(values_.data()) + j * stride_; }
+    const double* column(int j) const { return reinterpret_cast<const double*>(values_.data()) + j * stride_; }
+    bool eliminate_panel(int first, int count, double* inverse);
+
     int bandwidth_ = 0;
-    std::size_t stride_ = 0;
-    std::vector<double, UntouchedAllocator<double>> values_;
+    std::ptrdiff_t stride_ = 0;  ///< a multiple of the numbers in a pack, so that rows keep their places
+    std::vector<Pack, UntouchedAllocator<Pack>> values_;
   };
 
   /// Calls body(0) and body(1) for the two halves, in threads where so many operations are worth it.

@@ -54,23 +54,19 @@ const Field<At>& part(const Components<Dim, At>& x, int k) {
 /// Inner product over the box, all parts.
 template <class At, int Dim, class Vector>
 double dot(const Layout<Dim>& layout, const Box<Dim>& box, const Vector& x, const Vector& y) {
-  double total = 0;
-  for (int k = 0; k < part_count(x); ++k) {
-    const double* const a = &part(x, k)[At{0}];
-    const double* const b = &part(y, k)[At{0}];
-    total += sum<At>(layout, box, [=](At p) { return a[p.n] * b[p.n]; });
-  }
-  return total;
+  return sum<At>(layout, box, [&](At p) {
+    double product = 0;
+    for (int k = 0; k < part_count(x); ++k) product += part(x, k)[p] * part(y, k)[p];
+    return product;
+  });
 }
 
 /// Calls body(y(p), x(p)) for all points of the box and all parts; the body updates its first argument.
 template <class At, int Dim, class Vector, class Body>
 void combine(const Layout<Dim>& layout, const Box<Dim>& box, Vector& y, const Vector& x, Body&& body) {
-  for (int k = 0; k < part_count(y); ++k) {
-    Field<At>& to = part(y, k);
-    const Field<At>& from = part(x, k);
-    for_each<At>(layout, box, [&](At p) { body(to[p], from[p]); });
-  }
+  for_each<At>(layout, box, [&](At p) {
+    for (int k = 0; k < part_count(y); ++k) body(part(y, k)[p], part(x, k)[p]);
+  });
 }
 
 /// Euclidean norm over all unknowns of the box.
@@ -108,8 +104,12 @@ double descend(const Layout<Dim>& layout, const Box<Dim>& box, Apply&& apply, Pr
     const double pq = dot<At>(layout, box, p, q);
     if (!(pq > 0) || !std::isfinite(pq)) break;
     const double alpha = rz / pq;
-    combine<At>(layout, box, x, p, [step = sign * alpha](double& xi, double pi) { xi += step * pi; });
-    combine<At>(layout, box, r, q, [alpha](double& ri, double qi) { ri -= alpha * qi; });
+    for_each<At>(layout, box, [&, step = sign * alpha](At at) {
+      for (int k = 0; k < part_count(x); ++k) {
+        part(x, k)[at] += step * part(p, k)[at];
+        part(r, k)[at] -= alpha * part(q, k)[at];
+      }
+    });
     r_norm = norm(r);
     rz_old = rz;
     ++report.iterations;
