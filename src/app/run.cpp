@@ -1,5 +1,6 @@
 #include "app/run.hpp"
 
+#include <chrono>
 #include <filesystem>
 #include <new>
 #include <numeric>
@@ -45,6 +46,7 @@ void write_fields(const Flow<Dim>& flow, Run<Dim>& run) {
 /// One step and what is written after it. \return whether fields were
 template <int Dim>
 bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
+  const auto start = std::chrono::steady_clock::now();
   const State<Dim>& state = flow.state();
   const double stable = stable_step(flow, run.control.cfl());
   set_threads(run.threads.next());
@@ -70,6 +72,8 @@ bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
     run.progress.say(event_text(event, state.time, full_circle(flow.domain().grid)));
   }
   run.progress.step(state.time, state.step, state.dt);
+  run.memory.statistics.add_step_seconds(
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   const bool due = run.control.output_due(state.time);
   if (due) write_fields(flow, run);
   return due;

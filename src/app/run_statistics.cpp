@@ -83,6 +83,7 @@ void RunStatistics::carry_grids(Archive& archive) {
     carry_numbers(archive, name + "/seconds", grids_[i].seconds);
   }
   carry(archive, "statistics/cell_steps", cell_steps_);
+  carry(archive, "statistics/step_seconds", step_seconds_);
   if (grids_.empty()) archive.refuse("statistics/grid/cells", "no grid that the run was on");
 }
 
@@ -130,6 +131,7 @@ Json RunStatistics::summary(const std::string& status, const std::string& messag
   json["steps_beyond_cfl"] = steps_beyond_cfl_;
   json["cells"] = grids_.back().cells;
   json["wall_seconds"] = wall;
+  json["step_seconds"] = step_seconds_;
   json["cell_steps_per_second"] = wall > 0 ? cell_steps_ / wall : 0.0;
   json["threads"] = thread_count();
   if (mean_threads_) json["mean_threads"] = *mean_threads_;

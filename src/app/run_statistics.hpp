@@ -30,6 +30,8 @@ class RunStatistics {
   /// \param volume  Flow::volume() now
   /// \param time    after the step
   void add(const StepReport& report, const std::vector<double>& volume, double time);
+  /// Adds the time on the wall that a step took, all but fields and checkpoints, which few steps write.
+  void add_step_seconds(double seconds) { step_seconds_ += seconds; }
   void count_retry() { ++retries_; }
   /// Counts a fixed step beyond the CFL limit; returns how many there are.
   long count_step_beyond_cfl() { return ++steps_beyond_cfl_; }
@@ -67,6 +69,7 @@ class RunStatistics {
   };
   std::vector<OnGrid> grids_;
   double cell_steps_ = 0;
+  double step_seconds_ = 0;
   long steps_ = 0;
   double time_ = 0;
   long retries_ = 0;

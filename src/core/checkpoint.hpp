@@ -13,7 +13,7 @@
 namespace quicksand {
 
 /// The version grows when the names or meanings of what is stored change.
-inline const SealedFormat checkpoint_format{"quicksand checkpoint", 1};
+inline const SealedFormat checkpoint_format{"quicksand checkpoint", 2};
 
 /// Writes a checkpoint, which appears under its name with commit(). All functions throw FileError.
 class CheckpointWriter final : public Archive {

@@ -31,9 +31,10 @@ StressFields evaluate_stress(const Flow<Dim>& flow) {
     gather(e, flow.state().u, corner);
     StrainRate<Dim> rates[point_count<Dim>];
     strain_rates(e, corner, rates);
+    const Rheology rheology = elements.material(n);
+    double sums[corner_count<Dim>][4] = {};
     for (int q = 0; q < point_count<Dim>; ++q) {
       if (!(e.weight(q) > 0)) continue;
-      const Rheology rheology = elements.material(n);
       const StrainRate<Dim>& s = rates[q];
       double f = effective_viscosity(rheology, s.scalar);
       double magnitude = f * s.scalar;
@@ -47,14 +48,18 @@ StressFields evaluate_stress(const Flow<Dim>& flow) {
         unyielded = creeps || is_rigid(rigid, rheology.rigid_yield_stress);
         f += std::min(size / std::max(s.scalar, 1e-300), flow.rigid_viscosity());
       }
+      const double values[4] = {1, f, magnitude, unyielded ? 1.0 : 0.0};
       for (int k = 0; k < corner_count<Dim>; ++k) {
         const double share = e.weight(q) * mid_edge_shapes<Dim>.value[q][k];
-        const Cell c = e.corner[k];
-        weights[c] += share;
-        fields.viscosity[c] += share * f;
-        fields.magnitude[c] += share * magnitude;
-        fields.unyielded[c] += unyielded ? share : 0.0;
+        for (int v = 0; v < 4; ++v) sums[k][v] += share * values[v];
       }
+    }
+    for (int k = 0; k < corner_count<Dim>; ++k) {
+      const Cell c = e.corner[k];
+      weights[c] += sums[k][0];
+      fields.viscosity[c] += sums[k][1];
+      fields.magnitude[c] += sums[k][2];
+      fields.unyielded[c] += sums[k][3];
     }
   });
   for_each<Cell>(grid.layout(), grid.cells(), [&](Cell c) {

@@ -14,7 +14,7 @@ namespace {
 constexpr int max_iterations = 400;
 
 /// Systems in the plane whose neighbours' numbers differ by so much at most are factorised.
-constexpr int widest_band = 72;
+constexpr int widest_band = 144;
 
 }  // namespace
 

@@ -16,8 +16,8 @@ namespace {
 
 /// Systems whose neighbours' numbers differ by so much at most are factorised, and those for which size times
 /// bandwidth^2 is small all the same.
-constexpr int widest_band = 64;
-constexpr double cheap_factors = 1e7;
+constexpr int widest_band = 80;
+constexpr double cheap_factors = 2e7;
 
 /// Aspect ratio up to which relaxation by points suits a 9-point matrix.
 constexpr double largest_point_aspect = 1.6;

@@ -98,7 +98,7 @@ class Runner:
         if any(run["last"] != first["last"] for run in runs):
             raise CaseError(f"{job.case}, {job.size}: runs differ")
         cell_steps = first["cells"] * first["steps"]
-        costs = [1e6 * run["wall_seconds"] / cell_steps for run in runs]
+        costs = [1e6 * run["step_seconds"] / cell_steps for run in runs]
         memory = (first["peak_memory_MiB"] - BASE_MEMORY_MIB) * 2**20 / BYTES_PER_DOUBLE / first["cells"]
         return {"group": job.group, "size": job.size, "threads": threads, "cells": first["cells"], "steps": first["steps"],
                 "whole": job.whole, "seconds": statistics.median(run["wall_seconds"] for run in runs),
