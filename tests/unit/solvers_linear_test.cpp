@@ -49,30 +49,30 @@ void expect_solved(StencilMatrix<Dim, At> matrix, Method expected, int most_iter
 }
 
 TEST(LinearSolver, FivePointsOnUniformGrids) {
-  const Grid<2> square({uniform_axis(96), uniform_axis(96)}, Geometry::planar);
+  const Grid<2> square({uniform_axis(144), uniform_axis(144)}, Geometry::planar);
   expect_solved(cell_laplacian(square, lower_part(square)), Method::pfmg, 12);
   expect_solved(cell_laplacian(square, lower_part(square), true), Method::pfmg, 12);
-  const Grid<2> flat({uniform_axis(64), uniform_axis(96, 0, 30)}, Geometry::planar);
+  const Grid<2> flat({uniform_axis(96), uniform_axis(144, 0, 30)}, Geometry::planar);
   expect_solved(cell_laplacian(flat, lower_part(flat)), Method::pfmg, 16);
-  const Grid<2> tube({uniform_axis(64), uniform_axis(96)}, Geometry::axisymmetric);
+  const Grid<2> tube({uniform_axis(96), uniform_axis(144)}, Geometry::axisymmetric);
   expect_solved(cell_laplacian(tube, lower_part(tube)), Method::pfmg, 16);
 }
 
 TEST(LinearSolver, FivePointsOnGradedGrids) {
-  const Grid<2> one_axis({uniform_axis(64), graded_axis(96, 30)}, Geometry::planar);
+  const Grid<2> one_axis({uniform_axis(96), graded_axis(144, 30)}, Geometry::planar);
   expect_solved(cell_laplacian(one_axis, lower_part(one_axis)), Method::pfmg, 25);
-  const Grid<2> both({graded_axis(70, 30), graded_axis(150, 30)}, Geometry::planar);
+  const Grid<2> both({graded_axis(90, 30), graded_axis(150, 30)}, Geometry::planar);
   expect_solved(cell_laplacian(both, lower_part(both)), Method::smg, 8);
 }
 
 TEST(LinearSolver, NinePoints) {
-  const Grid<2> square({uniform_axis(96), uniform_axis(96)}, Geometry::planar);
+  const Grid<2> square({uniform_axis(144), uniform_axis(144)}, Geometry::planar);
   expect_solved(node_laplacian(square, lower_part(square)), Method::pfmg, 16);
-  const Grid<2> flat({uniform_axis(64), uniform_axis(96, 0, 30)}, Geometry::planar);
+  const Grid<2> flat({uniform_axis(96), uniform_axis(144, 0, 30)}, Geometry::planar);
   expect_solved(node_laplacian(flat, lower_part(flat)), Method::star_pfmg, 24);
-  const Grid<2> graded({uniform_axis(64), graded_axis(96, 30)}, Geometry::planar);
+  const Grid<2> graded({uniform_axis(96), graded_axis(144, 30)}, Geometry::planar);
   expect_solved(node_laplacian(graded, lower_part(graded)), Method::star_pfmg, 30);
-  const Grid<2> both({graded_axis(70, 30), graded_axis(150, 30)}, Geometry::planar);
+  const Grid<2> both({graded_axis(90, 30), graded_axis(150, 30)}, Geometry::planar);
   expect_solved(node_laplacian(both, lower_part(both)), Method::smg, 12);
 }
 
@@ -83,7 +83,7 @@ TEST(LinearSolver, SevenAndTwentySevenPoints) {
 }
 
 TEST(LinearSolver, OneCellThick) {
-  const Grid<3> slice({uniform_axis(64), uniform_axis(1), uniform_axis(96)}, Geometry::cartesian);
+  const Grid<3> slice({uniform_axis(96), uniform_axis(1), uniform_axis(144)}, Geometry::cartesian);
   expect_solved(cell_laplacian(slice, lower_part(slice)), Method::pfmg, 14);
   expect_solved(node_laplacian(slice, lower_part(slice)), pfmg_suits_27_points() ? Method::pfmg : Method::star_pfmg,
                 70);
@@ -126,7 +126,7 @@ TEST(LinearSolver, AllNeumannSystemsAreMadeConsistent) {
 }
 
 TEST(LinearSolver, WarmStartSavesIterations) {
-  const Grid<2> grid({uniform_axis(64), uniform_axis(64)}, Geometry::planar);
+  const Grid<2> grid({uniform_axis(96), uniform_axis(96)}, Geometry::planar);
   auto matrix = cell_laplacian(grid, lower_part(grid));
   CellField b = rough_field(matrix);
   CellField x(grid.layout());
@@ -137,7 +137,7 @@ TEST(LinearSolver, WarmStartSavesIterations) {
 }
 
 TEST(LinearSolver, ZeroRightHandSideGivesZero) {
-  const Grid<2> grid({uniform_axis(64), uniform_axis(64)}, Geometry::planar);
+  const Grid<2> grid({uniform_axis(96), uniform_axis(96)}, Geometry::planar);
   auto matrix = cell_laplacian(grid, lower_part(grid));
   CellField b(grid.layout());
   CellField x(grid.layout());
@@ -148,7 +148,7 @@ TEST(LinearSolver, ZeroRightHandSideGivesZero) {
 }
 
 TEST(LinearSolver, AKeptPreconditionerServesSeveralRightHandSides) {
-  const Grid<2> grid({uniform_axis(64), uniform_axis(64)}, Geometry::planar);
+  const Grid<2> grid({uniform_axis(96), uniform_axis(96)}, Geometry::planar);
   auto matrix = node_laplacian(grid, lower_part(grid));
   Preconditioner<2, Node> preconditioner(matrix);
   NodeField b = rough_field(matrix);
@@ -161,7 +161,7 @@ TEST(LinearSolver, AKeptPreconditionerServesSeveralRightHandSides) {
 }
 
 TEST(LinearSolver, SaysWhenItDoesNotConverge) {
-  const Grid<2> grid({uniform_axis(64), uniform_axis(64)}, Geometry::planar);
+  const Grid<2> grid({uniform_axis(96), uniform_axis(96)}, Geometry::planar);
   auto matrix = cell_laplacian(grid, lower_part(grid));
   CellField x(grid.layout());
   SolveOptions options;
