@@ -1,5 +1,7 @@
 #include "physics/velocity_matrix.hpp"
 
+#include <algorithm>
+
 namespace quicksand {
 
 template <int Dim>
@@ -26,14 +28,18 @@ void VelocityMatrix<Dim>::clear() {
     set_box(box_);
   }
   // One layer more, where apply() reads the couplings of rows around the box.
-  const Box<Dim> rows = grow(box(), 1);
-  const auto zero = [&](CellField& f) { for_each<Cell>(layout_, rows, [&](Cell c) { f[c] = 0; }); };
+  const Rows<Dim> rows(layout_, grow(box(), 1));
+  std::vector<CellField*> entries;
   for (int a = 0; a < Dim; ++a) {
     for (int b = 0; b < Dim; ++b) {
-      if (b >= a) zero(centre(a, b));
-      for (std::size_t e = 0; e < offsets().size(); ++e) zero(lower(a, b, e));
+      if (b >= a) entries.push_back(&centre(a, b));
+      for (std::size_t e = 0; e < offsets().size(); ++e) entries.push_back(&lower(a, b, e));
     }
   }
+  const auto zero = [&](std::ptrdiff_t start) {
+    for (CellField* const f : entries) std::fill_n(&(*f)[Cell{start}], rows.length, 0.0);
+  };
+  rows.for_each(zero, static_cast<int>(entries.size()));
 }
 
 template <int Dim>

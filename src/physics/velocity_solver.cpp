@@ -32,9 +32,15 @@ struct VelocitySolver<Dim>::Factors {
   Factors(const VelocityMatrix<Dim>& matrix, const BandOrder<Dim>& band)
       : order(band), factors(Dim * order.size(), bandwidth(order)) {
     order.template for_each<Cell>([&](Cell c, const Index<Dim>& i, int n) {
+      for (int a = 0; a < Dim; ++a) factors.begin(Dim * n + a);
       for (int a = 0; a < Dim; ++a) {
         for (int b = 0; b <= a; ++b) factors.add(Dim * n + a, Dim * n + b, matrix.centre(a, b)[c]);
       }
+      // Of the two cells of a coupling that one reads and adds it whose unknown it belongs to.
+      const auto couple = [&](int row, int neighbour, int component, const double& value) {
+        const int column = Dim * neighbour + component;
+        if (neighbour >= 0 && neighbour != n && factors.owner(row, column) == row) factors.add(row, column, value);
+      };
       for (std::size_t e = 0; e < matrix.offsets().size(); ++e) {
         const Index<Dim>& offset = matrix.offsets()[e];
         const int below = order.number(i + offset);
@@ -43,8 +49,9 @@ struct VelocitySolver<Dim>::Factors {
         for (int a = 0; a < Dim; ++a) {
           for (int b = 0; b < Dim; ++b) {
             // On an axis of one cell, that is periodic, a cell is its own neighbour.
-            if (below >= 0 && below <= n) factors.add(Dim * n + a, Dim * below + b, matrix.lower(a, b, e)[c]);
-            if (above >= 0 && above < n) factors.add(Dim * n + a, Dim * above + b, matrix.lower(b, a, e)[next]);
+            if (below == n) factors.add(Dim * n + a, Dim * n + b, matrix.lower(a, b, e)[c]);
+            couple(Dim * n + a, below, b, matrix.lower(a, b, e)[c]);
+            couple(Dim * n + a, above, b, matrix.lower(b, a, e)[next]);
           }
         }
       }

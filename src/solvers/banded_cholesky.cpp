@@ -76,6 +76,11 @@ BandedCholesky::Band::Band(int size, int bandwidth)
       stride_(pack_of(bandwidth + panel + 2 * pack_width - 3)),
       values_(static_cast<std::size_t>((size + excess(bandwidth) + 1) * (stride_ + 1) / pack_width + 1)) {}
 
+void BandedCholesky::Band::clear_from(int first) {
+  double* const end = reinterpret_cast<double*>(values_.data() + values_.size());
+  std::fill(column(first) + first, end, 0.0);
+}
+
 int BandedCholesky::Band::excess(int bandwidth) { return bandwidth + panel + pack_width; }
 
 /// Eliminates the columns of a panel from each other. \param inverse  is set to those of the pivots
@@ -187,7 +192,8 @@ BandedCholesky::BandedCholesky(int size, int bandwidth)
   ends_[1] = size_ - middle_ - ends_[0];
   band_[0] = Band(ends_[0] + middle_, bandwidth_);
   if (halves) band_[1] = Band(ends_[1] + middle_, bandwidth_);
-  for_halves(1.0 * size_ * bandwidth_, [&](std::size_t half) { band_[half].clear(); });
+  band_[0].clear_from(ends_[0] + middle_);
+  if (halves) band_[1].clear_from(ends_[1]);
 }
 
 bool BandedCholesky::factorize() {

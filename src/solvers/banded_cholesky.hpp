@@ -52,10 +52,17 @@ class BandOrder {
 /// halves, as many unknowns as the band is wide, comes last. The order is the same for any number of threads.
 class BandedCholesky {
  public:
-  /// A matrix of zeros.
+  /// A matrix whose entries are not set yet: those of every unknown begin with begin().
   BandedCholesky(int size, int bandwidth);
-  /// Adds to the entry at (row, column) and its mirror image, for |row - column| <= bandwidth.
-  /// Different rows may be added to at the same time, a row being that of the larger number.
+  /// Sets all entries to zero that belong to an unknown. Unknowns may be begun and added to at the same time.
+  void begin(int unknown) {
+    const bool first = unknown < ends_[0] + middle_;
+    band_[first ? 0 : 1].clear_column(first ? unknown : size_ - 1 - unknown);
+  }
+  /// The one of two unknowns that their entry belongs to.
+  int owner(int a, int b) const { return std::max(a, b) < ends_[0] + middle_ ? std::min(a, b) : std::max(a, b); }
+  /// Adds to the entry at (row, column) and its mirror image, for |row - column| <= bandwidth, once its owner has
+  /// begun.
   void add(int row, int column, double value) {
     const int low = std::min(row, column);
     const int high = std::max(row, column);
@@ -79,7 +86,9 @@ class BandedCholesky {
     Band(int size, int bandwidth);
     /// How many zeros must follow the unknowns in an array.
     static int excess(int bandwidth);
-    void clear() { std::fill(values_.begin(), values_.end(), Pack{}); }
+    void clear_column(int j) { std::fill_n(column(j) + j, stride_ + 1, 0.0); }
+    /// Clears the columns from the first one on to the end.
+    void clear_from(int first);
     double& entry(int column, int below) { return this->column(column)[column + below]; }
     /// Eliminates the columns [first, last). Returns false where a pivot is not positive.
     bool eliminate(int first, int last);

@@ -95,11 +95,11 @@ class Factors {
   explicit Factors(const StencilMatrix<Dim, At>& matrix)
       : order_(matrix.layout, matrix.box), factors_(order_.size(), order_.bandwidth()) {
     order_.template for_each<At>([&](At p, const Index<Dim>& i, int n) {
+      factors_.begin(n);
       factors_.add(n, n, matrix.diagonal[p]);
-      const auto couple = [&](const Index<Dim>& j, double value) {
-        if (value == 0) return;
+      const auto couple = [&](const Index<Dim>& j, const double& value) {
         const int neighbour = order_.number(j);
-        if (neighbour >= 0 && neighbour < n) factors_.add(n, neighbour, value);
+        if (neighbour >= 0 && neighbour != n && factors_.owner(n, neighbour) == n) factors_.add(n, neighbour, value);
       };
       for (std::size_t e = 0; e < matrix.lower.size(); ++e) {
         couple(i + matrix.offsets[e], matrix.lower[e][p]);

@@ -18,11 +18,18 @@ double entry(int row, int column, int bandwidth) {
   return std::abs(row - column) <= bandwidth ? testing::rough(Index<1>{{row + column}}, std::abs(row - column)) : 0.0;
 }
 
+/// Factors of a matrix of zeros.
+BandedCholesky zeros(int size, int bandwidth) {
+  BandedCholesky factors(size, bandwidth);
+  for (int i = 0; i < size; ++i) factors.begin(i);
+  return factors;
+}
+
 TEST(BandedCholesky, SolvesToRoundOff) {
   for (const auto& [size, bandwidth] :
        {std::pair{1, 0}, std::pair{7, 3}, std::pair{40, 11}, std::pair{5, 9}, std::pair{12, 0}, std::pair{50, 1},
         std::pair{48, 6}, std::pair{49, 6}, std::pair{97, 6}, std::pair{400, 41}}) {
-    BandedCholesky factors(size, bandwidth);
+    BandedCholesky factors = zeros(size, bandwidth);
     for (int i = 0; i < size; ++i) {
       for (int j = 0; j <= i; ++j) {
         if (i - j <= bandwidth) factors.add(i, j, entry(i, j, bandwidth));
@@ -42,8 +49,30 @@ TEST(BandedCholesky, SolvesToRoundOff) {
   }
 }
 
+/// Every entry belongs to one of its two unknowns, and beginning another unknown leaves it alone.
+TEST(BandedCholesky, UnknownsAreBegunOneByOne) {
+  constexpr int size = 61;  // of an odd half, so that a cell of two unknowns lies in both
+  constexpr int bandwidth = 5;
+  BandedCholesky factors(size, bandwidth);
+  for (int i = size - 1; i >= 0; --i) {
+    factors.begin(i);
+    for (int j = std::max(i - bandwidth, 0); j <= std::min(i + bandwidth, size - 1); ++j) {
+      EXPECT_EQ(factors.owner(i, j), factors.owner(j, i));
+      if (factors.owner(i, j) == i) factors.add(i, j, entry(i, j, bandwidth));
+    }
+  }
+  ASSERT_TRUE(factors.factorize());
+  std::vector<double> x(size, 1.0);
+  factors.solve(x);
+  for (int i = 0; i < size; ++i) {
+    double product = 0;
+    for (int j = 0; j < size; ++j) product += entry(i, j, bandwidth) * x[static_cast<std::size_t>(j)];
+    EXPECT_NEAR(product, 1, 1e-13);
+  }
+}
+
 TEST(BandedCholesky, RefusesWhatIsNotPositiveDefinite) {
-  BandedCholesky factors(2, 1);
+  BandedCholesky factors = zeros(2, 1);
   factors.add(0, 0, 1);
   factors.add(1, 1, 1);
   factors.add(1, 0, 2);
@@ -54,12 +83,12 @@ TEST(BandedCholesky, RefusesWhatIsNotPositiveDefinite) {
 TEST(BandedCholesky, RefusesAWrongPivotAnywhere) {
   constexpr int size = 101;
   for (const int wrong : {3, 50, 51, 97}) {
-    BandedCholesky factors(size, 3);
+    BandedCholesky factors = zeros(size, 3);
     for (int i = 0; i < size; ++i) factors.add(i, i, i == wrong ? -1 : 1);
     EXPECT_FALSE(factors.factorize()) << wrong;
   }
   // The upper half alone makes the middle indefinite.
-  BandedCholesky factors(size, 3);
+  BandedCholesky factors = zeros(size, 3);
   for (int i = 0; i < size; ++i) factors.add(i, i, 1);
   factors.add(52, 50, 1.5);
   EXPECT_FALSE(factors.factorize());
@@ -71,7 +100,7 @@ TEST(BandedCholesky, SolutionsDoNotDependOnTheNumberOfThreads) {
   std::vector<double> solutions[2];
   for (const int threads : {1, 3}) {
     const testing::Threads of_factors(threads);
-    BandedCholesky factors(size, bandwidth);
+    BandedCholesky factors = zeros(size, bandwidth);
     for (int i = 0; i < size; ++i) {
       for (int j = std::max(i - bandwidth, 0); j <= i; ++j) factors.add(i, j, entry(i, j, bandwidth));
     }
