@@ -1,6 +1,7 @@
 #pragma once
 /// \file
 /// Values at few positions of a grid.
+#include <numeric>
 #include <vector>
 
 #include "core/field.hpp"
@@ -25,20 +26,37 @@ class SparseField {
   template <int Dim, class Candidate, class Find>
   void find(const Layout<Dim>& layout, const Box<Dim>& box, Candidate&& candidate, Find&& find) {
     number_.fill(none);
-    for_each<At>(layout, box, [&](At at, const Index<Dim>& i) { number_[at] = candidate(at, i) ? 0 : none; });
-    int count = 0;  // in order of the points, whatever the number of threads: serial
     const Rows<Dim> rows(layout, box);
-    for (std::ptrdiff_t r = 0; r < rows.count; ++r) {
-      const std::ptrdiff_t start = rows.start(r);
+    std::vector<int> before(static_cast<std::size_t>(rows.count) + 1, 0);  // candidates in the rows before a row
+    const auto for_each_row = [&](auto&& body) {
+      for_each_number(rows.count, rows.count * rows.length,
+                      [&](std::ptrdiff_t r) { body(rows.start(r), static_cast<std::size_t>(r)); });
+    };
+    for_each_row([&](std::ptrdiff_t start, std::size_t r) {
+      const Index<Dim> first = layout.multi(start);
       for (int i = 0; i < rows.length; ++i) {
-        int& number = number_[At{start + i}];
-        if (number != none) number = count++;
+        Index<Dim> index = first;
+        index[0] += i;
+        const At at{start + i};
+        number_[at] = candidate(at, index) ? before[r + 1]++ : none;
       }
-    }
-    values_.assign(static_cast<std::size_t>(count), T{});
-    for_each<At>(layout, box, [&](At at, const Index<Dim>& i) {
-      if (!has(at)) return;
-      if (!find(at, i, values_[static_cast<std::size_t>(number_[at])])) number_[at] = none;
+    });
+    std::partial_sum(before.begin(), before.end(), before.begin());
+    std::vector<At> place(static_cast<std::size_t>(before.back()));
+    for_each_row([&](std::ptrdiff_t start, std::size_t r) {
+      for (At at{start}; at.n < start + rows.length; ++at.n) {
+        if (!has(at)) continue;
+        number_[at] += before[r];
+        place[static_cast<std::size_t>(number_[at])] = at;
+      }
+    });
+    // Candidates lie close together: threads share them evenly, not by rows.
+    constexpr int cost = 64;
+    values_.assign(place.size(), T{});
+    for_each_number(before.back(), before.back() * std::ptrdiff_t{cost}, [&](std::ptrdiff_t k) {
+      const auto number = static_cast<std::size_t>(k);
+      const At at = place[number];
+      if (!find(at, layout.multi(at.n), values_[number])) number_[at] = none;
     });
   }
   /// Gives the layer around a box the values at the other ends of the axes on which it wraps.
