@@ -6,10 +6,14 @@
 #include <iomanip>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "app/grid_sequence.hpp"
 #include "app/initial_bubbles.hpp"
 #include "physics/diffusion.hpp"
+#include "physics/velocity_solver.hpp"
+#include "solvers/banded_cholesky.hpp"
+#include "solvers/preconditioner.hpp"
 
 namespace quicksand {
 
@@ -26,6 +30,20 @@ constexpr double matrix_fields = Dim == 2 ? 19 : 123;
 constexpr double hierarchy_fields = 18;
 template <int Dim>
 constexpr double stress_fields = 1.0 * sizeof(PointStresses<Dim>) / sizeof(double);
+
+/// Numbers per cell of banded factors, where a grid without periodic axes is slender enough for them.
+double factor_fields(const GridConfig& grid, int components, int widest) {
+  std::vector<long> cells = axis_cells(grid);
+  std::sort(cells.begin(), cells.end());
+  double points = 0;  // by which the numbers of neighbours differ
+  double stride = 1;
+  for (const long n : cells) {
+    points += n > 1 ? stride : 0;
+    stride *= static_cast<double>(n);
+  }
+  const double band = components * (points + 1) - 1;
+  return band <= widest ? components * BandedCholesky::numbers_per_unknown(static_cast<int>(band)) : 0.0;
+}
 
 template <int Dim>
 double stress_memory(const std::vector<Species>& species) {
@@ -54,9 +72,13 @@ double needed_memory(const CaseConfig& config) {
   for (const StageConfig& stage : config.stages) {
     most_cells = std::max(most_cells, allocated_cells(grid_of(config, stage)));
   }
-  const double fields =
-      base_fields + fields_per_species * static_cast<double>(config.species.size()) +
-      (config.grid.dimension == 2 ? stress_memory<2>(config.species) : stress_memory<3>(config.species));
+  const double stress =
+      config.grid.dimension == 2 ? stress_memory<2>(config.species) : stress_memory<3>(config.species);
+  const double scalar_factors = factor_fields(config.grid, 1, widest_scalar_band);
+  const double velocity_factors =
+      stress > 0 ? factor_fields(config.grid, config.grid.dimension, widest_velocity_band) : 0.0;
+  const double fields = base_fields + fields_per_species * static_cast<double>(config.species.size()) + stress +
+                        std::max(scalar_factors, velocity_factors);
   // On its way from one grid to the next a flow is there twice.
   const double flows = config.stages.empty() && !config.regrid ? 1 : 2;
   return flows * fields * sizeof(double) * most_cells / 1e6;

@@ -43,42 +43,6 @@ void write_fields(const Flow<Dim>& flow, Run<Dim>& run) {
   run.writer.append_crater(flow);
 }
 
-/// One step and what is written after it. \return whether fields were
-template <int Dim>
-bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
-  const auto start = std::chrono::steady_clock::now();
-  const State<Dim>& state = flow.state();
-  const double stable = stable_step(flow, run.control.cfl());
-  set_threads(run.threads.next());
-  StepReport report =
-      advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable),
-                           {run.config.guard.halvings, run.control.least_step()}, [&](const std::string& failure) {
-                             run.progress.say(failure);
-                             run.memory.statistics.count_retry();
-                           });
-  run.threads.step_took(std::accumulate(report.seconds.begin(), report.seconds.end(), 0.0));
-  set_threads(run.threads.most());
-  report.gas.insert(report.gas.begin(), run.remap_events.begin(), run.remap_events.end());
-  run.remap_events.clear();
-  if (run.control.beyond_limit(state.dt, stable) && run.memory.statistics.count_step_beyond_cfl() == 1) {
-    run.progress.say("warning: step " + std::to_string(state.step) + ": dt " + number_text(state.dt) +
-                     " exceeds the CFL limit of convection, " + number_text(stable) +
-                     "; further such steps are only counted, in summary.json");
-  }
-  run.memory.statistics.add(report, flow.volume(), state.time);
-  run.memory.is_steady = run.memory.steady.reached(report, state.time);
-  run.writer.append_history(flow, diagnose(flow), report);
-  for (const GasEvent& event : report.gas) {
-    run.progress.say(event_text(event, state.time, full_circle(flow.domain().grid)));
-  }
-  run.progress.step(state.time, state.step, state.dt);
-  run.memory.statistics.add_step_seconds(
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  const bool due = run.control.output_due(state.time);
-  if (due) write_fields(flow, run);
-  return due;
-}
-
 /// Takes note of the grid that the flow is on now.
 template <int Dim>
 void begin_grid(const Flow<Dim>& flow, Run<Dim>& run) {
@@ -109,6 +73,43 @@ void change_grid(Flow<Dim>& flow, Run<Dim>& run) {
     run.progress.say("the change of grid kept " + number_text(report.kinetic_energy / report.kinetic_energy_before) +
                      " of the kinetic energy");
   }
+}
+
+/// One step, after a change of grid that is due, and what is written after it. \return whether fields were
+template <int Dim>
+bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
+  const auto start = std::chrono::steady_clock::now();
+  change_grid(flow, run);
+  const State<Dim>& state = flow.state();
+  const double stable = stable_step(flow, run.control.cfl());
+  set_threads(run.threads.next());
+  StepReport report =
+      advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable),
+                           {run.config.guard.halvings, run.control.least_step()}, [&](const std::string& failure) {
+                             run.progress.say(failure);
+                             run.memory.statistics.count_retry();
+                           });
+  run.threads.step_took(std::accumulate(report.seconds.begin(), report.seconds.end(), 0.0));
+  set_threads(run.threads.most());
+  report.gas.insert(report.gas.begin(), run.remap_events.begin(), run.remap_events.end());
+  run.remap_events.clear();
+  if (run.control.beyond_limit(state.dt, stable) && run.memory.statistics.count_step_beyond_cfl() == 1) {
+    run.progress.say("warning: step " + std::to_string(state.step) + ": dt " + number_text(state.dt) +
+                     " exceeds the CFL limit of convection, " + number_text(stable) +
+                     "; further such steps are only counted, in summary.json");
+  }
+  run.memory.statistics.add(report, flow.volume(), state.time);
+  run.memory.is_steady = run.memory.steady.reached(report, state.time);
+  run.writer.append_history(flow, diagnose(flow), report);
+  for (const GasEvent& event : report.gas) {
+    run.progress.say(event_text(event, state.time, full_circle(flow.domain().grid)));
+  }
+  run.progress.step(state.time, state.step, state.dt);
+  run.memory.statistics.add_step_seconds(
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  const bool due = run.control.output_due(state.time);
+  if (due) write_fields(flow, run);
+  return due;
 }
 
 template <int Dim>
@@ -151,7 +152,6 @@ bool march(Run<Dim>& run, const ResumePoint* resume) {
   bool fields_due = resume == nullptr || resume->head.fields_due;
   try {
     while (!is_over(flow, run) && interrupt_signal() == 0) {
-      change_grid(flow, run);
       fields_due = take_step(flow, run);
       if (checkpoints.due(flow.state().time)) write_checkpoint(flow, run, fields_due);
     }

@@ -13,7 +13,11 @@ void ThreadChoice::step_took(double seconds) {
     return;
   }
   (place_ % 2 == 1 ? seconds_other_ : seconds_in_use_) += seconds;
-  if (++place_ == 2 * pairs) conclude();
+  if (++place_ == 2 * pairs || (place_ == 2 && is_decided())) conclude();
+}
+
+bool ThreadChoice::is_decided() const {
+  return std::max(seconds_in_use_, seconds_other_) > decisive * std::min(seconds_in_use_, seconds_other_);
 }
 
 void ThreadChoice::choose_other() {

@@ -8,7 +8,8 @@ namespace quicksand {
 /// busy machine, and where loops are short, fewer may be faster. Results do not depend on the number.
 ///
 /// Trials put steps with the number in use and with the next smaller or larger one in turns, so that both meet the same
-/// work and the same neighbours. They are far between, and farther when they confirm what is in use.
+/// work and the same neighbours. They are far between, and farther when they confirm what is in use; those that a first
+/// pair of steps decides end with it, since on a busy machine a step with all threads may take ten times as long.
 class ThreadChoice {
  public:
   /// \param most   threads that may be used, at least 1
@@ -25,14 +26,16 @@ class ThreadChoice {
 
  private:
   static constexpr int pairs = 3;           ///< of steps in a trial
-  static constexpr int first_wait = 4;      ///< steps before the first trial: some are not like the others
+  static constexpr int first_wait = 1;      ///< steps before the first trial: the first is not like the others
   static constexpr int shortest_wait = 32;  ///< steps between trials
   static constexpr int longest_wait = 512;
   static constexpr double clearly = 0.95;  ///< of the time in use has to be beaten
+  static constexpr double decisive = 2;    ///< ratio of two steps that ends a trial
 
   bool on_trial() const { return !fixed_ && wait_ == 0; }
   /// The next smaller number, and the next larger one, in turns.
   void choose_other();
+  bool is_decided() const;
   void conclude();
 
   int most_;

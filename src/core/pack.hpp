@@ -74,13 +74,6 @@ inline Pack square_root(const Pack& x) {
 }
 
 /// a - b c, rounded once where the processor can.
-inline double minus_product(double a, double b, double c) {
-#if defined(__FMA__)
-  return std::fma(-b, c, a);
-#else
-  return a - b * c;
-#endif
-}
 inline Pack minus_product(const Pack& a, double b, const Pack& c) {
 #if defined(__AVX512F__)
   return _mm512_fnmadd_pd(_mm512_set1_pd(b), c, a);

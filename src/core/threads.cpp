@@ -28,14 +28,15 @@ void untie() {
 }  // namespace
 
 void start_with_patient_threads(char** arguments) {
-  // libgomp's count of rounds: a millisecond, as longer parts of a step on one thread take. Waking a thread takes a
-  // tenth.
-  constexpr const char* spin_rounds = "100000";
-  constexpr const char* milliseconds = "1";  // for clang's library
+  // Bound threads have their processors for themselves, so it seems: they may wait through parts of a step on one
+  // thread.
+  const bool bound = omp_get_proc_bind() != omp_proc_bind_false;
+  const char* const rounds = bound ? "100000" : "10000";  // for libgomp: one or two milliseconds, or a tenth
+  const char* const milliseconds = bound ? "1" : "0";     // for clang's library
   for (const char* name : {"OMP_WAIT_POLICY", "GOMP_SPINCOUNT", "KMP_BLOCKTIME"}) {
     if (std::getenv(name) != nullptr) return;
   }
-  ::setenv("GOMP_SPINCOUNT", spin_rounds, 1);
+  ::setenv("GOMP_SPINCOUNT", rounds, 1);
   ::setenv("KMP_BLOCKTIME", milliseconds, 1);
   untie();
   ::execv("/proc/self/exe", arguments);

@@ -5,8 +5,9 @@
 
 namespace quicksand {
 
-/// Lets threads that wait for work give up their processor after a millisecond, unless the environment says how
-/// they are to wait. OpenMP reads this before main() begins, so the program starts itself anew once.
+/// Lets threads that wait for work give up their processor after a tenth of a millisecond, bound ones after a
+/// millisecond or two, unless the environment says how they are to wait. OpenMP reads this before main() begins, so the
+/// program starts itself anew once.
 ///
 /// Threads that spin, as is the custom, slow each other and all other programs down on a busy machine: two may then
 /// take many times as long as one. \param arguments  argv of main()

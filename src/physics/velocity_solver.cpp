@@ -13,9 +13,6 @@ namespace {
 
 constexpr int max_iterations = 400;
 
-/// Systems in the plane whose neighbours' numbers differ by so much at most are factorised.
-constexpr int widest_band = 144;
-
 }  // namespace
 
 /// Banded Cholesky factors; unusable where the matrix is not positive definite to round-off. Unknown number = Dim *
@@ -93,7 +90,7 @@ struct VelocitySolver<Dim>::Cycles {
 template <int Dim>
 VelocitySolver<Dim>::VelocitySolver(const VelocityMatrix<Dim>& matrix) : matrix_(&matrix) {
   const BandOrder<Dim> order(matrix.component(0).layout, matrix.box());
-  if (Factors::bandwidth(order) <= widest_band) factors_ = std::make_unique<Factors>(matrix, order);
+  if (Factors::bandwidth(order) <= widest_velocity_band) factors_ = std::make_unique<Factors>(matrix, order);
 }
 template <int Dim>
 VelocitySolver<Dim>::~VelocitySolver() = default;

@@ -8,7 +8,10 @@
 
 namespace quicksand {
 
-/// A matrix made ready to be solved any number of times: small plane systems by banded Cholesky factors, the others by
+/// Systems whose neighbours' numbers differ by no more than this are factorised.
+inline constexpr int widest_velocity_band = 144;
+
+/// A matrix made ready to be solved any number of times: slender systems by banded Cholesky factors, the others by
 /// conjugate gradients with one multigrid cycle per component as preconditioner.
 template <int Dim>
 class VelocitySolver {

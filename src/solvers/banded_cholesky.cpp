@@ -71,9 +71,16 @@ Pack without(Pack x, const double (&factor)[panel], const PanelRows& rows) {
 
 }  // namespace
 
+int BandedCholesky::numbers_per_unknown(int bandwidth) {
+  // Beyond the band a column has zeros for the rows of its panel's last pack, and for those of the last factors.
+  constexpr int last_pack = panel + pack_width - 2;
+  constexpr int last_factors = 2 * (panel - 1);
+  return pack_of(bandwidth + std::max(last_pack, last_factors) + pack_width - 1) + 1;
+}
+
 BandedCholesky::Band::Band(int size, int bandwidth)
     : bandwidth_(bandwidth),
-      stride_(pack_of(bandwidth + panel + 2 * pack_width - 3)),
+      stride_(numbers_per_unknown(bandwidth) - 1),
       values_(static_cast<std::size_t>((size + excess(bandwidth) + 1) * (stride_ + 1) / pack_width + 1)) {}
 
 void BandedCholesky::Band::clear_from(int first) {
@@ -225,7 +232,6 @@ void BandedCholesky::solve(std::vector<double>& x) const {
   double* const copy = part[1].data() + ends_[1];  // of the middle, from its end
   for (int a = 0; halves && a < middle_; ++a) middle[a] += copy[middle_ - 1 - a];
   band_[0].substitute(ends_[0], unknowns(0), part[0].data());
-  std::fill_n(middle + middle_, Band::excess(bandwidth_), 0.0);
   band_[0].substitute_back(ends_[0], unknowns(0), part[0].data());
   if (halves) std::reverse_copy(middle, middle + middle_, copy);
   for_halves(operations, [&](std::size_t half) { band_[half].substitute_back(0, ends_[half], part[half].data()); });

@@ -54,6 +54,8 @@ class BandedCholesky {
  public:
   /// A matrix whose entries are not set yet: those of every unknown begin with begin().
   BandedCholesky(int size, int bandwidth);
+  /// How many numbers are held for an unknown.
+  static int numbers_per_unknown(int bandwidth);
   /// Sets all entries to zero that belong to an unknown. Unknowns may be begun and added to at the same time.
   void begin(int unknown) {
     const bool first = unknown < ends_[0] + middle_;

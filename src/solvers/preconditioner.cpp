@@ -14,9 +14,7 @@ namespace quicksand {
 
 namespace {
 
-/// Systems whose neighbours' numbers differ by so much at most are factorised, and those for which size times
-/// bandwidth^2 is small all the same.
-constexpr int widest_band = 80;
+/// Systems for which size times bandwidth^2 is no more than this are factorised whatever their band.
 constexpr double cheap_factors = 2e7;
 
 /// Aspect ratio up to which relaxation by points suits a 9-point matrix.
@@ -155,7 +153,7 @@ class Diagonal {
 template <int Dim>
 bool suits_factors(const Layout<Dim>& layout, const Box<Dim>& box) {
   const BandOrder<Dim> order(layout, box);
-  return order.bandwidth() <= widest_band ||
+  return order.bandwidth() <= widest_scalar_band ||
          1.0 * order.size() * order.bandwidth() * order.bandwidth() <= cheap_factors;
 }
 

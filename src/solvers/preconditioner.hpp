@@ -21,6 +21,9 @@ enum class Method {
 /// Name of a method for reports.
 std::string_view name(Method method);
 
+/// Systems whose neighbours' numbers differ by no more than this are factorised. Wider ones cost less with multigrid.
+inline constexpr int widest_scalar_band = 80;
+
 /// Whether systems on a box are small or slender enough to be factorised.
 template <int Dim>
 bool suits_factors(const Layout<Dim>& layout, const Box<Dim>& box);

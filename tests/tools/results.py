@@ -56,7 +56,7 @@ def write_crater(folder, depth=0.1):
 
 
 def write_summary(folder, **values):
-    summary = {"status": "finished", "time": 1.0, "steps": 10, "cells": 128, "wall_seconds": 2.5,
+    summary = {"status": "finished", "time": 1.0, "steps": 10, "cells": 128, "wall_seconds": 2.5, "step_seconds": 2.0,
                "volume_error": {"sand": 1e-15}, "energy_increase": {"redistribution": 0, "projection": 0},
                "phases": {"diffusion": {"seconds": 1.5, "iterations": 20, "fallbacks": 2}}, **values}
     (pathlib.Path(folder) / "summary.json").write_text(json.dumps(summary), encoding="utf-8")

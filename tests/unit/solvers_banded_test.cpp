@@ -28,7 +28,8 @@ BandedCholesky zeros(int size, int bandwidth) {
 TEST(BandedCholesky, SolvesToRoundOff) {
   for (const auto& [size, bandwidth] :
        {std::pair{1, 0}, std::pair{7, 3}, std::pair{40, 11}, std::pair{5, 9}, std::pair{12, 0}, std::pair{50, 1},
-        std::pair{48, 6}, std::pair{49, 6}, std::pair{97, 6}, std::pair{400, 41}}) {
+        std::pair{48, 6}, std::pair{49, 6}, std::pair{97, 6}, std::pair{400, 41}, std::pair{30, 1}, std::pair{30, 2},
+        std::pair{31, 4}, std::pair{33, 5}, std::pair{90, 7}, std::pair{90, 8}, std::pair{95, 9}, std::pair{99, 10}}) {
     BandedCholesky factors = zeros(size, bandwidth);
     for (int i = 0; i < size; ++i) {
       for (int j = 0; j <= i; ++j) {

@@ -48,6 +48,13 @@ TEST(ThreadChoice, FollowsWhatChanges) {
   EXPECT_LT(run(choice, 1000, [](int threads) { return 1.0 / threads; }), 1.02 * 500);
 }
 
+TEST(ThreadChoice, StepsThatTakeTenTimesAsLongAreFew) {
+  ThreadChoice choice(2, false);
+  const auto cost = [](int threads) { return threads == 2 ? 10.0 : 1.0; };
+  EXPECT_LT(run(choice, 200, cost), 1.25 * 200);
+  EXPECT_LT(run(choice, 1000, cost), 1.04 * 1000);
+}
+
 TEST(ThreadChoice, SmallDifferencesChangeNothing) {
   ThreadChoice choice(2, false);
   run(choice, 1000, [](int threads) { return threads == 2 ? 1.0 : 0.97; });
