@@ -26,6 +26,9 @@ constexpr double residual_share = 0.3;
 constexpr int patience = 20;
 /// Sums of a closed system below this fraction of their terms are round-off.
 constexpr double round_off = 1e-13;
+/// H that moves less than this volume fraction is 0. In full cells that nothing passes through it would otherwise
+/// shrink from guess to guess, to numbers without digits that no later division stands.
+constexpr double least_moved = 1e-16;
 
 enum Membership : unsigned char { outside, inside, reached };
 
@@ -77,6 +80,9 @@ class ObstacleSolver {
     return sum<Cell>(layout_, matrix_.box, f);
   }
 
+  /// h, or 0 where it is negative or moves nothing.
+  double admissible(Cell c, double h) const { return h * matrix_.diagonal[c] > least_moved * volume_[c] ? h : 0.0; }
+
   /// Returns false when H = 0 solves the problem.
   bool check_and_clean() {
     if (!std::isfinite(total([&](Cell c) { return std::abs(b_[c]) + std::abs(potential_[c]); }))) {
@@ -84,7 +90,7 @@ class ObstacleSolver {
     }
     for_each<Cell>(layout_, matrix_.box, [&](Cell c) {
       if (std::abs(b_[c]) <= tolerance_ * volume_[c]) b_[c] = 0;
-      potential_[c] = std::max(potential_[c], 0.0);
+      potential_[c] = admissible(c, potential_[c]);
     });
     report_.violation = maximum<Cell>(layout_, matrix_.box, 0, [&](Cell c) { return b_[c] / volume_[c]; });
     report_.trivial = report_.violation <= tolerance_;
@@ -244,8 +250,8 @@ class ObstacleSolver {
           maximum<Cell>(layout_, box_, 0, [&](Cell c) { return step_[c] < 0 ? -step_[c] / potential_[c] : 0.0; });
       length = steepest_fall > 0 ? std::clamp(1 / steepest_fall, 1.0, best) : best;
     }
-    combine<Cell>(layout_, box_, potential_, step_,
-                  [length](double& h, double d) { h = std::max(h + length * d, 0.0); });
+    for_each<Cell>(layout_, box_,
+                   [&, length](Cell c) { potential_[c] = admissible(c, potential_[c] + length * step_[c]); });
     return good;
   }
 
@@ -258,7 +264,7 @@ class ObstacleSolver {
         const Step s = matrix_.steps[e];
         excess -= matrix_.lower[e][c] * potential_[c - s] + matrix_.lower[e][c + s] * potential_[c + s];
       }
-      potential_[c] = excess > 0 ? excess / matrix_.diagonal[c] : 0;
+      potential_[c] = admissible(c, excess / matrix_.diagonal[c]);
     });
   }
 

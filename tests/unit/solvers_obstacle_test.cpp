@@ -199,6 +199,28 @@ TEST(Obstacle, AnyGuessLeadsToTheSameSolution) {
                  [&](Cell c) { EXPECT_NEAR(wrong.H[c], cold.H[c], 1e-9 * 3.4e-3 * 1e3); });
 }
 
+TEST(Obstacle, WhatMovesNothingIsZero) {
+  // A full pool at rest, of which a past impact left some H, and a drop above it that gives volume.
+  constexpr int n = 32;
+  const auto at_rest = [](const Index<2>& i) { return i[1] < n / 4; };
+  Problem<2> problem(unit_square(n), [&](const Index<2>& i) {
+    const bool in_drop = std::hypot(i[0] - n / 2, i[1] - (3 * n) / 4) < 4;
+    return in_drop ? 0.1 : at_rest(i) ? 0.0 : -1.0;
+  });
+  for (const double left : {1e-3, 1e-15, 1e-30, 1e-310}) {
+    for_each<Cell>(problem.grid.layout(), problem.grid.cells(), [&](Cell c, const Index<2>& i) {
+      if (at_rest(i)) problem.H[c] = left * (1 + i[0]);
+    });
+    for (int step = 0; step < 25; ++step) problem.solve();
+    problem.expect_complementary(1e-9);
+    for_each<Cell>(problem.grid.layout(), problem.grid.cells(), [&](Cell c, const Index<2>& i) {
+      const double moved = problem.matrix.diagonal[c] * problem.H[c] / problem.grid.volume(i);
+      EXPECT_TRUE(moved == 0 || moved > 1e-17) << moved;
+      EXPECT_TRUE(moved <= 1e-9 || !at_rest(i)) << moved;
+    });
+  }
+}
+
 TEST(Obstacle, VolumeIsConservedInClosedBoxes) {
   Problem<2> problem(unit_square(64), pool(64, 1e-9));
   problem.solve();
