@@ -82,15 +82,17 @@ bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
   change_grid(flow, run);
   const State<Dim>& state = flow.state();
   const double stable = stable_step(flow, run.control.cfl());
-  set_threads(run.threads.next());
-  StepReport report =
-      advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable),
-                           {run.config.guard.halvings, run.control.least_step()}, [&](const std::string& failure) {
-                             run.progress.say(failure);
-                             run.memory.statistics.count_retry();
-                           });
+  StepReport report;
+  {
+    const ThreadScope threads(run.threads.next(), run.threads.time_limit(), run.threads.fewer());
+    report =
+        advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable),
+                             {run.config.guard.halvings, run.control.least_step()}, [&](const std::string& failure) {
+                               run.progress.say(failure);
+                               run.memory.statistics.count_retry();
+                             });
+  }
   run.threads.step_took(std::accumulate(report.seconds.begin(), report.seconds.end(), 0.0));
-  set_threads(run.threads.most());
   report.gas.insert(report.gas.begin(), run.remap_events.begin(), run.remap_events.end());
   run.remap_events.clear();
   if (run.control.beyond_limit(state.dt, stable) && run.memory.statistics.count_step_beyond_cfl() == 1) {

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
 /// How many of its threads a run uses.
+#include <map>
 
 namespace quicksand {
 
@@ -8,46 +9,58 @@ namespace quicksand {
 /// busy machine, and where loops are short, fewer may be faster. Results do not depend on the number.
 ///
 /// Trials put steps with the number in use and with the next smaller or larger one in turns, so that both meet the same
-/// work and the same neighbours. They are far between, and farther when they confirm what is in use; those that a first
-/// pair of steps decides end with it, since on a busy machine a step with all threads may take ten times as long.
+/// work and the same neighbours; two pairs that agree decide. They are far between, and farther when they confirm what
+/// is in use.
+///
+/// On a busy machine a step may take ten times as long with all threads as with one, since each loop waits for the last
+/// of them. Hence steps have a time limit, after which fewer threads finish them. One that runs into it loses its
+/// trial, or begins one.
 class ThreadChoice {
  public:
   /// \param most   threads that may be used, at least 1
   /// \param fixed  use all of them, whatever they take
   ThreadChoice(int most, bool fixed) : most_(most), fixed_(fixed || most == 1), in_use_(most) {}
 
-  int most() const { return most_; }
   /// Threads for the next step.
-  int next() const { return on_trial() && place_ % 2 == 1 ? other_ : in_use_; }
+  int next() const;
+  /// Seconds that the next step has with so many; infinite where it is not known what fewer take.
+  double time_limit() const;
+  /// Threads that finish the next step when its time is over.
+  int fewer() const;
   /// To be called after a step. \param seconds  that it took
   void step_took(double seconds);
   /// Mean number of threads over the steps so far.
   double mean() const { return steps_ > 0 ? thread_steps_ / static_cast<double>(steps_) : most_; }
 
  private:
-  static constexpr int pairs = 3;           ///< of steps in a trial
+  static constexpr int enough = 2;          ///< pairs of steps that decide a trial
   static constexpr int first_wait = 1;      ///< steps before the first trial: the first is not like the others
   static constexpr int shortest_wait = 32;  ///< steps between trials
   static constexpr int longest_wait = 512;
   static constexpr double clearly = 0.95;  ///< of the time in use has to be beaten
-  static constexpr double decisive = 2;    ///< ratio of two steps that ends a trial
+  static constexpr double patience = 1.5;  ///< time limit, in that of a step with fewer threads
 
   bool on_trial() const { return !fixed_ && wait_ == 0; }
-  /// The next smaller number, and the next larger one, in turns.
-  void choose_other();
-  bool is_decided() const;
-  void conclude();
+  void begin_trial(int other);
+  /// Of a pair of steps. \param late  whether the one with more threads ran into the time limit
+  void judge(bool late);
 
   int most_;
   bool fixed_;
   int in_use_;
-  int other_ = 1;
-  bool smaller_ = false;  ///< whether the last trial was of a smaller number
-  int place_ = 0;         ///< of the step in its trial
   int wait_ = first_wait;
   int next_wait_ = shortest_wait;
+  bool down_next_ = true;  ///< direction of the next trial where there are two
+
+  int other_ = 1;  ///< on trial
+  int place_ = 0;  ///< of the step in its trial: even ones take the smaller number
+  int for_other_ = 0;
+  int against_other_ = 0;
   double seconds_in_use_ = 0;
   double seconds_other_ = 0;
+  double late_seconds_ = 0;  ///< of the step that began the trial by running into its time limit, or 0
+
+  std::map<int, double> last_seconds_;  ///< of a step, by number of threads
   long steps_ = 0;
   double thread_steps_ = 0;
 };

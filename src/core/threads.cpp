@@ -12,6 +12,11 @@ namespace quicksand {
 
 namespace {
 
+/// Of the innermost scope: like OpenMP's own number of threads it belongs to the thread that starts the loops.
+thread_local ThreadScope::Limit limit;
+
+constexpr double longest_limit = 1e6;  ///< seconds; more are none
+
 /// Undoes what OpenMP has done where threads are to be bound: it has tied this thread to one processor, which would be
 /// the only one that a program started anew finds.
 void untie() {
@@ -49,8 +54,27 @@ void set_threads(int count) {
 
 int thread_count() { return omp_get_max_threads(); }
 
+ThreadScope::ThreadScope(int count, double seconds, int fewer) : count_before_(thread_count()), limit_before_(limit) {
+  set_threads(count);
+  limit = {};
+  if (seconds < longest_limit) {
+    limit.end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    limit.fewer = fewer;
+  }
+}
+
+ThreadScope::~ThreadScope() {
+  set_threads(count_before_);
+  limit = limit_before_;
+}
+
 void detail::run_team(std::ptrdiff_t count, LoopPart part, const void* body) {
-  const int threads = thread_count();
+  int threads = thread_count();
+  if (threads > limit.fewer && limit.end < ThreadScope::Clock::time_point::max() &&
+      ThreadScope::Clock::now() > limit.end) {
+    threads = limit.fewer;
+    set_threads(threads);
+  }
   if (threads == 1) {
     part(body, 0, count);
     return;

@@ -1,7 +1,9 @@
 #pragma once
 /// \file
 /// How many threads the loops use, and the one place where a team of them is started.
+#include <chrono>
 #include <cstddef>
+#include <limits>
 
 namespace quicksand {
 
@@ -17,6 +19,28 @@ void start_with_patient_threads(char** arguments);
 void set_threads(int count);
 /// Number of threads of the loops to come.
 int thread_count();
+
+/// Sets the number of threads for its life, or for a time: what a busy machine can make a piece of work wait is bounded
+/// so. Scopes may be nested.
+class ThreadScope {
+ public:
+  /// \param count    threads of the loops that begin within `seconds` from now
+  /// \param fewer    threads of those that begin later
+  explicit ThreadScope(int count, double seconds = std::numeric_limits<double>::infinity(), int fewer = 1);
+  ~ThreadScope();
+  ThreadScope(const ThreadScope&) = delete;
+  ThreadScope& operator=(const ThreadScope&) = delete;
+
+  using Clock = std::chrono::steady_clock;
+  struct Limit {
+    Clock::time_point end = Clock::time_point::max();
+    int fewer = 1;
+  };
+
+ private:
+  int count_before_;
+  Limit limit_before_;
+};
 
 namespace detail {
 

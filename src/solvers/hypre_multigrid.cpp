@@ -110,20 +110,6 @@ bool takes_period(MultigridKind kind, int n) {
 
 using HypreIndex = std::array<HYPRE_Int, 3>;
 
-/// Keeps loops to one thread for its life. Setting up, PFMG writes the couplings of coarse star matrices from either
-/// end, with values alike to round-off: on several threads that of the later one would stay, in cycles this does not
-/// occur.
-class OneThread {
- public:
-  OneThread() { set_threads(1); }
-  ~OneThread() { set_threads(before_); }
-  OneThread(const OneThread&) = delete;
-  OneThread& operator=(const OneThread&) = delete;
-
- private:
-  int before_ = thread_count();
-};
-
 }  // namespace
 
 bool pfmg_suits_27_points() { return HYPRE_RELEASE_NUMBER >= 30000; }
@@ -298,7 +284,9 @@ struct Multigrid<Dim, At>::Hierarchy {
       HYPRE_StructPFMGSetLogging(solver_, 0);
       HYPRE_StructPFMGSetPrintLevel(solver_, 0);
       set_widths(matrix);
-      const OneThread in_order;
+      // Setting up, PFMG writes the couplings of coarse star matrices from either end, with values alike to round-off:
+      // on several threads that of the later one would stay, in cycles this does not occur.
+      const ThreadScope one_thread(1);
       HYPRE_StructPFMGSetup(solver_, operator_, right_hand_side_, solution_);
       check_and_clear("set-up of PFMG");
     } else {

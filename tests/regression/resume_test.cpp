@@ -122,7 +122,7 @@ void expect_same_bits(const CaseConfig& config, const ResumedCase& resumed_case,
                            : k == 1 ? last - 1
                                     : std::uniform_int_distribution<std::size_t>(1, last - 1)(random);
     SCOPED_TRACE("interrupted after step " + std::to_string(at) + " of " + std::to_string(last));
-    const testing::Threads threads(k % 2 == 0 ? 1 : 2);
+    const ThreadScope threads(k % 2 == 0 ? 1 : 2);
     Voyage<Dim> resumed(config, memories[at]);
     march(config, resumed, falters, [&](long step) {
       const MemoryArchive& expected = memories[static_cast<std::size_t>(step)];

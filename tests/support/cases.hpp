@@ -7,9 +7,9 @@
 #include "app/build_flow.hpp"
 #include "app/case_config.hpp"
 #include "app/time_control.hpp"
+#include "core/threads.hpp"
 #include "physics/diagnostics.hpp"
 #include "physics/time_step.hpp"
-#include "support/threads.hpp"
 
 namespace quicksand::testing {
 

@@ -1,14 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <thread>
+
 #include "core/field.hpp"
 #include "core/loop.hpp"
+#include "core/threads.hpp"
 #include "support/grids.hpp"
-#include "support/threads.hpp"
 
 namespace quicksand {
 namespace {
-
-using testing::Threads;
 
 /// Large enough for loops to use threads.
 const Layout<2> plane(Index<2>{130, 110});
@@ -21,7 +23,7 @@ Box<Dim> owned(const Layout<Dim>& layout) {
 
 template <int Dim>
 void expect_every_point_once(const Layout<Dim>& layout) {
-  const Threads threads(4);
+  const ThreadScope threads(4);
   CellField plain(layout), indexed(layout), coloured(layout);
   const Box<Dim> box = owned(layout);
   for_each<Cell>(layout, box, [&](Cell c) { plain[c] += 1; });
@@ -45,7 +47,7 @@ TEST(CoreLoop, VisitsEveryPointOfARingOnce) {
 /// Every row adds to itself and to the rows next to it on the high side, as packs of elements do.
 template <int Dim>
 CellField add_to_rows_above(const Layout<Dim>& layout, int threads) {
-  const Threads of_loop(threads);
+  const ThreadScope of_loop(threads);
   CellField sums(layout);
   for_each_coloured_row(layout, owned(layout), 1 << Dim, [&](const Index<Dim>& row) {
     for (int k = 0; k < 1 << (Dim - 1); ++k) {
@@ -76,7 +78,7 @@ TEST(CoreLoop, ColouredRowsAddInTheSameOrderOnAnyNumberOfThreads) {
 TEST(CoreField, CopiesAndFillsAreWholeOnAnyNumberOfThreads) {
   const Layout<2> large(Index<2>{400, 300});  // shared among threads
   for (const int count : {1, 3}) {
-    const Threads threads(count);
+    const ThreadScope threads(count);
     CellField field(large, 2);
     for (std::ptrdiff_t n = 0; n < large.size(); ++n) field[Cell{n}] += static_cast<double>(n);
     CellField copy(field);
@@ -110,7 +112,7 @@ TEST(CoreLoop, EmptyBoxesAreNotVisited) {
 /// Adds a rough number of every cell to all nodes of the cell.
 template <int Dim>
 NodeField scatter(const Layout<Dim>& layout, int thread_number) {
-  const Threads threads(thread_number);
+  const ThreadScope threads(thread_number);
   NodeField nodes(layout);
   for_each_coloured<Cell>(layout, owned(layout), [&](Cell c, const Index<Dim>& i) {
     for (int k = 0; k < (1 << Dim); ++k) {
@@ -138,11 +140,46 @@ TEST(CoreLoop, ColouredScatterRoundRingsHasNoRaces) {
   expect_scatter_without_races(Layout<3>({33, 21, 19}, {{false, true, true}}));
 }
 
+/// How many threads a loop over many points takes.
+int team_size() {
+  std::atomic<int> parts = 0;
+  share_among_threads(100000, [&](std::ptrdiff_t, std::ptrdiff_t) { ++parts; });
+  return parts;
+}
+
+TEST(ThreadScope, SetsTheNumberForItsLife) {
+  const ThreadScope outer(3);
+  {
+    const ThreadScope inner(2);
+    EXPECT_EQ(team_size(), 2);
+  }
+  EXPECT_EQ(team_size(), 3);
+}
+
+TEST(ThreadScope, LoopsBeyondItsTimeTakeFewerThreads) {
+  const ThreadScope outer(3);
+  {
+    const ThreadScope spent(4, 0.0, 2);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    {
+      const ThreadScope without_limit(3);
+      EXPECT_EQ(team_size(), 3);
+    }
+    EXPECT_EQ(team_size(), 2);
+    EXPECT_EQ(thread_count(), 2);
+  }
+  EXPECT_EQ(team_size(), 3);
+  const ThreadScope in_time(2, 1e3);
+  EXPECT_EQ(team_size(), 2);
+  const ThreadScope fewer_than_it_may(1, 0.0, 2);
+  EXPECT_EQ(team_size(), 1);
+}
+
 TEST(CoreLoop, SumsDoNotDependOnTheNumberOfThreads) {
   CellField f(space);
   for_each<Cell>(space, owned(space), [&](Cell c, const Index<3>& i) { f[c] = testing::rough(i, 2); });
   const auto total = [&](int n) {
-    const Threads threads(n);
+    const ThreadScope threads(n);
     return sum<Cell>(space, owned(space), [&](Cell c) { return f[c]; });
   };
   const double one = total(1);

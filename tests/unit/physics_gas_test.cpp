@@ -4,10 +4,10 @@
 #include <cmath>
 #include <string>
 
+#include "core/threads.hpp"
 #include "physics/gas_regions.hpp"
 #include "physics/mixture.hpp"
 #include "support/grids.hpp"
-#include "support/threads.hpp"
 
 namespace quicksand {
 namespace {
@@ -122,10 +122,10 @@ TEST(GasLabels, OpenAirAndThreadsAnd3d) {
   const CellLabels before(domain.layout());
   GasLabels one(domain.layout()), two(domain.layout());
   {
-    const testing::Threads threads(1);
+    const ThreadScope threads(1);
     label_gas(domain, total, eps, before, one);
   }
-  const testing::Threads threads(3);
+  const ThreadScope threads(3);
   label_gas(domain, total, eps, before, two);
   ASSERT_EQ(one.components.size(), 2u);
   EXPECT_FALSE(one.components[0].open);

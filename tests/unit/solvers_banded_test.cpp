@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "core/threads.hpp"
 #include "solvers/banded_cholesky.hpp"
 #include "support/grids.hpp"
-#include "support/threads.hpp"
 
 namespace quicksand {
 namespace {
@@ -100,7 +100,7 @@ TEST(BandedCholesky, SolutionsDoNotDependOnTheNumberOfThreads) {
   constexpr int bandwidth = 35;
   std::vector<double> solutions[2];
   for (const int threads : {1, 3}) {
-    const testing::Threads of_factors(threads);
+    const ThreadScope of_factors(threads);
     BandedCholesky factors = zeros(size, bandwidth);
     for (int i = 0; i < size; ++i) {
       for (int j = std::max(i - bandwidth, 0); j <= i; ++j) factors.add(i, j, entry(i, j, bandwidth));

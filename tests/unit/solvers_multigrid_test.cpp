@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/threads.hpp"
 #include "solvers/conjugate_gradients.hpp"
-#include "support/threads.hpp"
 #include "unit/solvers_problems.hpp"
 
 namespace quicksand {
@@ -107,7 +107,7 @@ TEST(Multigrid, WorksOnAPartOfTheGridAndLeavesTheRestAlone) {
 /// What a cycle makes of a rough residual, hierarchy and all on so many threads.
 template <int Dim, class At>
 Field<At> cycled(const StencilMatrix<Dim, At>& matrix, MultigridKind kind, int threads) {
-  const testing::Threads of_all(threads);
+  const ThreadScope of_all(threads);
   Field<At> z(matrix.layout);
   Multigrid<Dim, At>(matrix, kind).cycle(rough_field(matrix), z);
   return z;

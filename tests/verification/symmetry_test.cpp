@@ -128,7 +128,7 @@ TEST(Symmetry, HorizontalAxesMayChangePlaces) {
 /// A few steps of a slug on a grid that is large enough for threads.
 template <int Dim>
 Flow<Dim> slug_with_threads(const CaseConfig& config, int threads) {
-  const testing::Threads scope(threads);
+  const ThreadScope scope(threads);
   Flow<Dim> flow = build_flow<Dim>(config);
   for (int k = 0; k < 4; ++k) flow.advance(2e-3);
   return flow;
