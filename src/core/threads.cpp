@@ -4,8 +4,12 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <cstdlib>
 #include <initializer_list>
+#include <optional>
 #include <vector>
 
 namespace quicksand {
@@ -16,6 +20,37 @@ namespace {
 thread_local ThreadScope::Limit limit;
 
 constexpr double longest_limit = 1e6;  ///< seconds; more are none
+
+/// Pieces of a loop that are left of a thread's part: it takes them from the front, and threads that are through with
+/// theirs from the back.
+class alignas(64) Share {
+ public:
+  void set(std::uint32_t first, std::uint32_t last) { ends_.store(packed(first, last), std::memory_order_relaxed); }
+  std::optional<std::uint32_t> take_first() { return take(true); }
+  std::optional<std::uint32_t> take_last() { return take(false); }
+
+ private:
+  static std::uint64_t packed(std::uint32_t first, std::uint32_t last) {
+    return static_cast<std::uint64_t>(first) << 32 | last;
+  }
+
+  std::optional<std::uint32_t> take(bool front) {
+    // Numbers of pieces are all that threads tell each other here: what bodies write is ordered by the loop's ends.
+    std::uint64_t ends = ends_.load(std::memory_order_relaxed);
+    while (true) {
+      const auto first = static_cast<std::uint32_t>(ends >> 32);
+      const auto last = static_cast<std::uint32_t>(ends);
+      if (first == last) return std::nullopt;
+      const std::uint64_t rest = front ? packed(first + 1, last) : packed(first, last - 1);
+      if (ends_.compare_exchange_weak(ends, rest, std::memory_order_relaxed)) return front ? first : last - 1;
+    }
+  }
+
+  std::atomic<std::uint64_t> ends_;
+};
+
+/// Few enough that taking them costs nothing, and enough that threads are through at the same time.
+constexpr std::ptrdiff_t pieces_of_share = 8;
 
 /// Undoes what OpenMP has done where threads are to be bound: it has tied this thread to one processor, which would be
 /// the only one that a program started anew finds.
@@ -79,8 +114,20 @@ void detail::run_team(std::ptrdiff_t count, LoopPart part, const void* body) {
     part(body, 0, count);
     return;
   }
-#pragma omp parallel for schedule(static, 1) num_threads(threads)
-  for (int t = 0; t < threads; ++t) part(body, count * t / threads, count * (t + 1) / threads);
+  const std::ptrdiff_t pieces = std::min(count, threads * pieces_of_share);
+  const auto run = [&](std::uint32_t piece) { part(body, count * piece / pieces, count * (piece + 1) / pieces); };
+  const auto begin = [&](int t) { return static_cast<std::uint32_t>(pieces * t / threads); };
+  std::vector<Share> shares(static_cast<std::size_t>(threads));
+  for (int t = 0; t < threads; ++t) shares[static_cast<std::size_t>(t)].set(begin(t), begin(t + 1));
+#pragma omp parallel num_threads(threads)
+  {
+    const auto own = static_cast<std::size_t>(omp_get_thread_num());
+    while (const auto piece = shares[own].take_first()) run(*piece);
+    for (std::size_t k = 1; k < shares.size(); ++k) {
+      Share& other = shares[(own + k) % shares.size()];
+      while (const auto piece = other.take_last()) run(*piece);
+    }
+  }
 }
 
 }  // namespace quicksand

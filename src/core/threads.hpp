@@ -50,8 +50,10 @@ void run_team(std::ptrdiff_t count, LoopPart part, const void* body);
 
 }  // namespace detail
 
-/// Calls body(first, last) on every thread, for equal parts of [0, count) in order. Bodies must not throw: with more
-/// than one thread that ends the program.
+/// Calls body(first, last) on all threads for pieces of [0, count). Every thread begins with its
+/// part of equal ones, in order, which keeps data in the caches from loop to loop; one that is through helps others,
+/// since the liquid is not everywhere and neither are a machine's other users. Bodies must not throw: with more than
+/// one thread that ends the program.
 template <class Body>
 void share_among_threads(std::ptrdiff_t count, const Body& body) {
   detail::run_team(

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <atomic>
 #include <chrono>
@@ -58,6 +59,36 @@ CellField add_to_rows_above(const Layout<Dim>& layout, int threads) {
     }
   });
   return sums;
+}
+
+TEST(CoreLoop, EveryPieceIsDoneOnceByAnyNumberOfThreads) {
+  for (const int threads : {1, 2, 3, 7}) {
+    const ThreadScope scope(threads);
+    for (const std::ptrdiff_t count : {0, 1, 2, 5, 16, 1000}) {
+      std::vector<std::atomic<int>> visits(static_cast<std::size_t>(count));
+      share_among_threads(count, [&](std::ptrdiff_t first, std::ptrdiff_t last) {
+        for (std::ptrdiff_t i = first; i < last; ++i) ++visits[static_cast<std::size_t>(i)];
+      });
+      for (const std::atomic<int>& n : visits) EXPECT_EQ(n, 1);
+    }
+  }
+}
+
+TEST(CoreLoop, ThreadsThatAreThroughHelpOthers) {
+  const ThreadScope two(2);
+  constexpr std::ptrdiff_t count = 1000;
+  std::atomic<int> helped = 0;
+  share_among_threads(count, [&](std::ptrdiff_t first, std::ptrdiff_t) {
+    if (first >= count / 2) return;
+    if (first > 0) {
+      ++helped;
+      return;
+    }
+    // The thread that the first half belongs to is held up.
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (helped == 0 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    EXPECT_GT(helped, 0);
+  });
 }
 
 TEST(CoreLoop, ColouredRowsAddInTheSameOrderOnAnyNumberOfThreads) {
@@ -142,9 +173,9 @@ TEST(CoreLoop, ColouredScatterRoundRingsHasNoRaces) {
 
 /// How many threads a loop over many points takes.
 int team_size() {
-  std::atomic<int> parts = 0;
-  share_among_threads(100000, [&](std::ptrdiff_t, std::ptrdiff_t) { ++parts; });
-  return parts;
+  std::atomic<int> size = 0;
+  share_among_threads(100000, [&](std::ptrdiff_t, std::ptrdiff_t) { size = omp_get_num_threads(); });
+  return size;
 }
 
 TEST(ThreadScope, SetsTheNumberForItsLife) {
