@@ -112,6 +112,7 @@ const ShippedCase cases[] = {
     {"bubbles/free_disc", 1, 12},
     {"bubbles/free_ball", 0.5, 4.7},
     {"bench/overturning_3d", 0.06, 2},
+    {"bench/tank", 0.1, 2},
 };
 
 std::string name_of(const ::testing::TestParamInfo<ShippedCase>& info) {

@@ -32,7 +32,7 @@ def slug(letter, n, end, whole=False):
 
 
 def planar(n, end):
-    return Job("sloshing, planar", "sloshing/planar", f"{n}", [f"grid.x.cells={n}", f"grid.z.cells={3 * n // 4}", f"time.end={end}"])
+    return Job("sloshing, planar", "bench/tank", f"{n} x {2 * n}", [f"grid.x.cells={n}", f"grid.z.cells={2 * n}", f"time.end={end}"])
 
 
 def space(n, end):
@@ -48,10 +48,10 @@ def space_slug(n, end):
 def jobs(full):
     """The sizes of the tables; short runs from the start where whole ones would take too long."""
     chosen = [slug(letter, n, 4, True) for letter in "bde" for n in (32, 64)]
-    chosen += [slug(letter, 128, 0.3) for letter in "bde"] + [planar(64, 0.5), planar(128, 0.2)]
+    chosen += [slug(letter, 128, 0.3) for letter in "bde"] + [planar(64, 0.2), planar(128, 0.1)]
     chosen += [space(32, 0.05), space(64, 0.03), space_slug(16, 0.05)]
     if full:
-        chosen += [slug(letter, 256, 0.1) for letter in "bde"] + [planar(256, 0.1), planar(512, 0.05)]
+        chosen += [slug(letter, 256, 0.1) for letter in "bde"] + [planar(256, 0.06), planar(512, 0.05)]
         chosen += [space(96, 0.02), space(128, 0.015), space(160, 0.012), space_slug(32, 0.03)]
     return chosen
 
