@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <limits>
 #include <numeric>
+#include <string>
 
 #include "core/threads.hpp"
 
@@ -16,6 +19,12 @@ std::size_t at(Phase phase) { return static_cast<std::size_t>(phase); }
 
 /// Largest memory in use so far, in MiB.
 double peak_memory() {
+  // What getrusage() says may be that of the process that started this one.
+  std::ifstream status("/proc/self/status");
+  for (std::string key; status >> key; status.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
+    double kibibytes = 0;
+    if (key == "VmHWM:" && status >> kibibytes) return kibibytes / 1024;
+  }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Runs that are interrupted, killed or starved of disk: what they leave, and what comes of resuming them.
+"""Runs that are interrupted, killed or starved of disk: what they leave and say, and what comes of resuming them.
 
 usage: interruption_test.py PROGRAM CONFIGS [--slow]
 """
+import json
 import pathlib
 import random
 import resource
@@ -171,6 +172,14 @@ class InterruptionTest(unittest.TestCase):
         for name in names:
             self.assertIn(f"R/{name}", text)
             self.assertEqual(self.finish([PROGRAM, "info", f"R/{name}"])[0], 0)
+
+    def test_peak_memory_is_not_that_of_the_program_that_started_the_run(self):
+        mine = bytearray(b"x") * (300 << 20)
+        code, text = self.finish(self.command("slug/case_e", end=0.02))
+        self.assertEqual(code, 0, text)
+        summary = json.loads((self.folder / "R/summary.json").read_text(encoding="utf-8"))
+        self.assertLess(summary["peak_memory_MiB"], 200)
+        self.assertEqual(len(mine), 300 << 20)
 
     def test_removed_folder_ends_the_run(self):
         process = self.start(self.command("slug/case_e", every=0.05, end=40))

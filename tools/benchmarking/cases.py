@@ -8,7 +8,6 @@ import statistics
 import subprocess
 
 BYTES_PER_DOUBLE = 8
-BASE_MEMORY_MIB = 20  # of a run on a few cells: libraries
 
 
 class CaseError(Exception):
@@ -66,6 +65,8 @@ class Runner:
     def __init__(self, program, configs, folder, repeat):
         self.program, self.configs, self.folder, self.repeat = program, configs, folder, repeat
         folder.mkdir(parents=True, exist_ok=True)
+        # Of a run on a few cells: the program and its libraries.
+        self.base_mebibytes = self.run_once(space(4, 0.02), 1)["peak_memory_MiB"]
 
     def case_file(self, job):
         """The case with steps by CFL number in place of Table 2's small ones, and hardly any output."""
@@ -99,7 +100,7 @@ class Runner:
             raise CaseError(f"{job.case}, {job.size}: runs differ")
         cell_steps = first["cells"] * first["steps"]
         costs = [1e6 * run["step_seconds"] / cell_steps for run in runs]
-        memory = (first["peak_memory_MiB"] - BASE_MEMORY_MIB) * 2**20 / BYTES_PER_DOUBLE / first["cells"]
+        memory = (first["peak_memory_MiB"] - self.base_mebibytes) * 2**20 / BYTES_PER_DOUBLE / first["cells"]
         return {"group": job.group, "size": job.size, "threads": threads, "cells": first["cells"], "steps": first["steps"],
                 "whole": job.whole, "seconds": statistics.median(run["wall_seconds"] for run in runs),
                 "cost": statistics.median(costs), "spread": max(costs) - min(costs),
