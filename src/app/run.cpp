@@ -3,7 +3,6 @@
 #include <chrono>
 #include <filesystem>
 #include <new>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -79,20 +78,16 @@ void change_grid(Flow<Dim>& flow, Run<Dim>& run) {
 template <int Dim>
 bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
   const auto start = std::chrono::steady_clock::now();
+  const ThreadScope threads(run.threads.next(), run.threads.time_limit(), run.threads.fewer());
   change_grid(flow, run);
   const State<Dim>& state = flow.state();
   const double stable = stable_step(flow, run.control.cfl());
-  StepReport report;
-  {
-    const ThreadScope threads(run.threads.next(), run.threads.time_limit(), run.threads.fewer());
-    report =
-        advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable),
-                             {run.config.guard.halvings, run.control.least_step()}, [&](const std::string& failure) {
-                               run.progress.say(failure);
-                               run.memory.statistics.count_retry();
-                             });
-  }
-  run.threads.step_took(std::accumulate(report.seconds.begin(), report.seconds.end(), 0.0));
+  StepReport report =
+      advance_with_retries(flow, run.control.next_step(state.time, state.dt, stable),
+                           {run.config.guard.halvings, run.control.least_step()}, [&](const std::string& failure) {
+                             run.progress.say(failure);
+                             run.memory.statistics.count_retry();
+                           });
   report.gas.insert(report.gas.begin(), run.remap_events.begin(), run.remap_events.end());
   run.remap_events.clear();
   if (run.control.beyond_limit(state.dt, stable) && run.memory.statistics.count_step_beyond_cfl() == 1) {
@@ -107,8 +102,9 @@ bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
     run.progress.say(event_text(event, state.time, full_circle(flow.domain().grid)));
   }
   run.progress.step(state.time, state.step, state.dt);
-  run.memory.statistics.add_step_seconds(
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  run.memory.statistics.add_step_seconds(seconds);
+  run.threads.step_took(seconds);
   const bool due = run.control.output_due(state.time);
   if (due) write_fields(flow, run);
   return due;
