@@ -36,6 +36,10 @@ struct Run {
   std::vector<GasEvent> remap_events{};  ///< since the last step
 };
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 template <int Dim>
 void write_fields(const Flow<Dim>& flow, Run<Dim>& run) {
   run.progress.wrote(flow.state().time, flow.state().step, run.writer.write_fields(flow).string());
@@ -53,6 +57,7 @@ void begin_grid(const Flow<Dim>& flow, Run<Dim>& run) {
     count *= cells[d];
   }
   run.memory.statistics.begin_grid(text, count, flow.state().time);
+  run.threads.forget();
   run.progress.begin_grid(count);
   if (run.memory.grids.number() == 1) return;
   run.progress.say("grid " + std::to_string(run.memory.grids.number()) + " at t = " + number_text(flow.state().time) +
@@ -78,8 +83,9 @@ void change_grid(Flow<Dim>& flow, Run<Dim>& run) {
 template <int Dim>
 bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
   const auto start = std::chrono::steady_clock::now();
-  const ThreadScope threads(run.threads.next(), run.threads.time_limit(), run.threads.fewer());
   change_grid(flow, run);
+  const auto grid_ready = std::chrono::steady_clock::now();
+  const ThreadScope threads(run.threads.next(), run.threads.time_limit(), run.threads.fewer());
   const State<Dim>& state = flow.state();
   const double stable = stable_step(flow, run.control.cfl());
   StepReport report =
@@ -88,6 +94,7 @@ bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
                              run.progress.say(failure);
                              run.memory.statistics.count_retry();
                            });
+  run.threads.step_took(seconds_since(grid_ready));
   report.gas.insert(report.gas.begin(), run.remap_events.begin(), run.remap_events.end());
   run.remap_events.clear();
   if (run.control.beyond_limit(state.dt, stable) && run.memory.statistics.count_step_beyond_cfl() == 1) {
@@ -102,9 +109,7 @@ bool take_step(Flow<Dim>& flow, Run<Dim>& run) {
     run.progress.say(event_text(event, state.time, full_circle(flow.domain().grid)));
   }
   run.progress.step(state.time, state.step, state.dt);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  run.memory.statistics.add_step_seconds(seconds);
-  run.threads.step_took(seconds);
+  run.memory.statistics.add_step_seconds(seconds_since(start));
   const bool due = run.control.output_due(state.time);
   if (due) write_fields(flow, run);
   return due;

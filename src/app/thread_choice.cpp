@@ -29,7 +29,8 @@ void ThreadChoice::step_took(double seconds) {
   const int threads = next();
   const int with_fewer = fewer();
   const bool late = seconds > time_limit();
-  if (!late) last_seconds_[threads] = seconds;
+  // What the smaller number takes now is what the larger one of the pair goes by.
+  if (!late || (on_trial() && place_ % 2 == 0)) last_seconds_[threads] = seconds;
   ++steps_;
   thread_steps_ += threads;
   if (fixed_) return;
@@ -37,14 +38,19 @@ void ThreadChoice::step_took(double seconds) {
     (threads == in_use_ ? seconds_in_use_ : seconds_other_) = seconds;
     if (++place_ % 2 == 0) judge(late);
   } else if (late) {
-    // It may just have been longer than those before it, but counts against its number.
+    // It may just have been longer than those before it.
     begin_trial(with_fewer);
     late_seconds_ = seconds;
-    for_other_ = 1;
   } else if (--wait_ == 0) {
     const bool down = in_use_ == most_ || (in_use_ > 1 && down_next_);
     begin_trial(down ? (in_use_ + 1) / 2 : std::min(2 * in_use_, most_));
   }
+}
+
+void ThreadChoice::forget() {
+  last_seconds_.clear();
+  wait_ = first_wait;
+  next_wait_ = shortest_wait;
 }
 
 void ThreadChoice::begin_trial(int other) {
@@ -63,8 +69,9 @@ void ThreadChoice::judge(bool late) {
     wait_ = 1;
     next_wait_ = shortest_wait;
   } else if (against_other_ == enough || (late && !better)) {
-    // The step that made the trial was just long, and others may be.
-    if (late_seconds_ > 0) last_seconds_[other_] = std::max(last_seconds_[other_], late_seconds_);
+    // The step that made the trial was just long, and others may be; but a stop of the machine is not to count.
+    double& last = last_seconds_[other_];
+    last = std::clamp(late_seconds_, last, 2 * last);
     down_next_ = other_ > in_use_;
     wait_ = next_wait_;
     next_wait_ = std::min(2 * next_wait_, longest_wait);

@@ -9,8 +9,8 @@ namespace quicksand {
 /// busy machine, and where loops are short, fewer may be faster. Results do not depend on the number.
 ///
 /// Trials put steps with the number in use and with the next smaller or larger one in turns, so that both meet the same
-/// work and the same neighbours; two pairs that agree decide. They are far between, and farther when they confirm what
-/// is in use.
+/// work and the same neighbours; three pairs that agree decide. They are far between, and farther when they confirm
+/// what is in use.
 ///
 /// On a busy machine a step may take ten times as long with all threads as with one, since each loop waits for the last
 /// of them. Hence steps have a time limit, after which fewer threads finish them. One that runs into it loses its
@@ -29,11 +29,13 @@ class ThreadChoice {
   int fewer() const;
   /// To be called after a step. \param seconds  that it took
   void step_took(double seconds);
-  /// Mean number of threads over the steps so far.
+  /// What steps took counts no more: they are others from now on.
+  void forget();
+  /// Mean number of threads that steps so far began with.
   double mean() const { return steps_ > 0 ? thread_steps_ / static_cast<double>(steps_) : most_; }
 
  private:
-  static constexpr int enough = 2;          ///< pairs of steps that decide a trial
+  static constexpr int enough = 3;          ///< pairs of steps that decide a trial
   static constexpr int first_wait = 1;      ///< steps before the first trial: the first is not like the others
   static constexpr int shortest_wait = 32;  ///< steps between trials
   static constexpr int longest_wait = 512;
@@ -60,7 +62,7 @@ class ThreadChoice {
   double seconds_other_ = 0;
   double late_seconds_ = 0;  ///< of the step that began the trial by running into its time limit, or 0
 
-  std::map<int, double> last_seconds_;  ///< of a step, by number of threads
+  std::map<int, double> last_seconds_;  ///< of a step within its time limit, by number of threads
   long steps_ = 0;
   double thread_steps_ = 0;
 };

@@ -16,8 +16,10 @@ namespace quicksand {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 /// Of the innermost scope: like OpenMP's own number of threads it belongs to the thread that starts the loops.
-thread_local ThreadScope::Limit limit;
+thread_local detail::TimeLimit limit;
 
 constexpr double longest_limit = 1e6;  ///< seconds; more are none
 
@@ -94,7 +96,7 @@ ThreadScope::ThreadScope(int count, double seconds, int fewer) : count_before_(t
   limit = {};
   if (seconds < longest_limit) {
     limit.end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-    limit.fewer = fewer;
+    limit.fewer = std::max(fewer, 1);
   }
 }
 
@@ -105,12 +107,11 @@ ThreadScope::~ThreadScope() {
 
 void detail::run_team(std::ptrdiff_t count, LoopPart part, const void* body) {
   int threads = thread_count();
-  if (threads > limit.fewer && limit.end < ThreadScope::Clock::time_point::max() &&
-      ThreadScope::Clock::now() > limit.end) {
+  if (threads > limit.fewer && limit.end < Clock::time_point::max() && Clock::now() > limit.end) {
     threads = limit.fewer;
     set_threads(threads);
   }
-  if (threads == 1) {
+  if (threads == 1 || count == 1) {
     part(body, 0, count);
     return;
   }

@@ -20,8 +20,18 @@ void set_threads(int count);
 /// Number of threads of the loops to come.
 int thread_count();
 
-/// Sets the number of threads for its life, or for a time: what a busy machine can make a piece of work wait is bounded
-/// so. Scopes may be nested.
+namespace detail {
+
+/// From when on loops take fewer threads.
+struct TimeLimit {
+  std::chrono::steady_clock::time_point end = std::chrono::steady_clock::time_point::max();
+  int fewer = 1;
+};
+
+}  // namespace detail
+
+/// Sets the number of threads for its life, or for a time: that bounds how long a busy machine can make a piece of work
+/// wait. Scopes may be nested; the innermost one counts.
 class ThreadScope {
  public:
   /// \param count    threads of the loops that begin within `seconds` from now
@@ -31,15 +41,9 @@ class ThreadScope {
   ThreadScope(const ThreadScope&) = delete;
   ThreadScope& operator=(const ThreadScope&) = delete;
 
-  using Clock = std::chrono::steady_clock;
-  struct Limit {
-    Clock::time_point end = Clock::time_point::max();
-    int fewer = 1;
-  };
-
  private:
   int count_before_;
-  Limit limit_before_;
+  detail::TimeLimit limit_before_;
 };
 
 namespace detail {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <thread>
+#include <vector>
 
 #include "core/field.hpp"
 #include "core/loop.hpp"
@@ -74,7 +75,24 @@ TEST(CoreLoop, EveryPieceIsDoneOnceByAnyNumberOfThreads) {
   }
 }
 
+TEST(CoreLoop, EveryPieceIsDoneByFewerThreadsThanAskedFor) {
+  const ThreadScope scope(4);
+  std::atomic<std::ptrdiff_t> visits = 0;
+#pragma omp parallel num_threads(2)
+#pragma omp single
+  {
+    // Within threads of OpenMP loops get no more of them.
+    const ThreadScope inner(4);
+    share_among_threads(1000, [&](std::ptrdiff_t first, std::ptrdiff_t last) {
+      EXPECT_EQ(omp_get_num_threads(), 1);
+      visits += last - first;
+    });
+  }
+  EXPECT_EQ(visits, 1000);
+}
+
 TEST(CoreLoop, ThreadsThatAreThroughHelpOthers) {
+  if (omp_get_thread_limit() < 2) GTEST_SKIP() << "there is one thread only";
   const ThreadScope two(2);
   constexpr std::ptrdiff_t count = 1000;
   std::atomic<int> helped = 0;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace quicksand {
 namespace {
@@ -54,7 +55,7 @@ TEST(ThreadChoice, FollowsWhatChanges) {
 TEST(ThreadChoice, StepsThatTakeTenTimesAsLongAreCutShort) {
   ThreadChoice choice(2, false);
   const auto cost = [](int threads) { return threads == 2 ? 10.0 : 1.0; };
-  EXPECT_LT(run(choice, 200, cost), 1.04 * 200);
+  EXPECT_LT(run(choice, 200, cost), 1.05 * 200);
   EXPECT_LT(run(choice, 1000, cost), 1.01 * 1000);
 }
 
@@ -62,7 +63,7 @@ TEST(ThreadChoice, ABusyMachineIsSeenAtOnce) {
   ThreadChoice choice(2, false);
   run(choice, 1000, [](int threads) { return 1.0 / threads; });
   EXPECT_EQ(choice.next(), 2);
-  EXPECT_LT(run(choice, 10, [](int threads) { return threads == 2 ? 10.0 : 1.0; }), 15);
+  EXPECT_LT(run(choice, 10, [](int threads) { return threads == 2 ? 10.0 : 1.0; }), 20);
   EXPECT_EQ(choice.next(), 1);
 }
 
@@ -76,6 +77,39 @@ TEST(ThreadChoice, StepsOfChangingLengthKeepTheirThreads) {
     least += work * 0.55;
   }
   EXPECT_LT(seconds, 1.05 * least);
+}
+
+TEST(ThreadChoice, StepsOfRandomLengthKeepTheirThreads) {
+  for (const int most : {2, 4, 8}) {
+    ThreadChoice choice(most, false);
+    std::mt19937 random(3);
+    std::normal_distribution<double> exponent(0, 0.45);
+    double seconds = 0;
+    double least = 0;
+    for (int n = 0; n < 10000; ++n) {
+      const double work = std::exp(exponent(random));
+      const auto cost = [&](int threads) { return work * std::pow(threads, -0.8); };
+      seconds += run(choice, 1, cost);
+      least += cost(most);
+    }
+    EXPECT_LT(seconds, 1.05 * least) << most;
+  }
+}
+
+TEST(ThreadChoice, AStopOfTheMachineDoesNotEndTheProtection) {
+  ThreadChoice choice(2, false);
+  run(choice, 200, [](int threads) { return 1.0 / threads; });
+  run(choice, 1, [](int) { return 3600.0; });
+  run(choice, 200, [](int threads) { return 1.0 / threads; });
+  EXPECT_EQ(choice.next(), 2);
+  EXPECT_LT(run(choice, 100, [](int threads) { return threads == 2 ? 10.0 : 1.0; }), 120);
+}
+
+TEST(ThreadChoice, LongerStepsOnAnotherGridAreNotTooLate) {
+  ThreadChoice choice(2, false);
+  run(choice, 200, [](int threads) { return 1.0 / threads; });
+  choice.forget();
+  EXPECT_LT(run(choice, 100, [](int threads) { return 16.0 / threads; }), 1.08 * 100 * 8);
 }
 
 TEST(ThreadChoice, GrowingStepsKeepTheirThreads) {
