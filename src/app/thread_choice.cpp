@@ -6,10 +6,13 @@
 
 namespace quicksand {
 
+ThreadChoice::ThreadChoice(int most, bool fixed)
+    : most_(most),
+      fixed_(fixed || most == 1),
+      // To find out that more are no better takes less than the other way round: their steps have a time limit.
+      in_use_(fixed_ ? most : (most + 1) / 2) {}
+
 int ThreadChoice::next() const {
-  if (fixed_) return in_use_;
-  // The first step, too, should not take ten times as long.
-  if (steps_ == 0) return (most_ + 1) / 2;
   if (!on_trial()) return in_use_;
   return place_ % 2 == 0 ? std::min(in_use_, other_) : std::max(in_use_, other_);
 }

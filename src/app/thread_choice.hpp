@@ -19,7 +19,7 @@ class ThreadChoice {
  public:
   /// \param most   threads that may be used, at least 1
   /// \param fixed  use all of them, whatever they take
-  ThreadChoice(int most, bool fixed) : most_(most), fixed_(fixed || most == 1), in_use_(most) {}
+  ThreadChoice(int most, bool fixed);
 
   /// Threads for the next step.
   int next() const;
@@ -52,7 +52,7 @@ class ThreadChoice {
   int in_use_;
   int wait_ = first_wait;
   int next_wait_ = shortest_wait;
-  bool down_next_ = true;  ///< direction of the next trial where there are two
+  bool down_next_ = false;  ///< direction of the next trial where there are two
 
   int other_ = 1;  ///< on trial
   int place_ = 0;  ///< of the step in its trial: even ones take the smaller number

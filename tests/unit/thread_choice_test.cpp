@@ -125,9 +125,12 @@ TEST(ThreadChoice, GrowingStepsKeepTheirThreads) {
 }
 
 TEST(ThreadChoice, SmallDifferencesChangeNothing) {
-  ThreadChoice choice(2, false);
-  run(choice, 1000, [](int threads) { return threads == 2 ? 1.0 : 0.97; });
-  EXPECT_GT(choice.mean(), 1.95);
+  for (const int in_use : {1, 2}) {
+    ThreadChoice choice(2, false);
+    run(choice, 100, [=](int threads) { return threads == in_use ? 1.0 : 2.0; });
+    run(choice, 1000, [=](int threads) { return threads == in_use ? 1.0 : 0.97; });
+    EXPECT_NEAR(choice.mean(), in_use, 0.05);
+  }
 }
 
 TEST(ThreadChoice, IsNoneWhereTheNumberIsFixed) {
