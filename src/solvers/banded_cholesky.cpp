@@ -222,7 +222,8 @@ void BandedCholesky::solve(std::vector<double>& x) const {
   std::vector<double> part[2];
   const bool halves = ends_[1] > 0;
   for (std::size_t half = 0; half < (halves ? 2 : 1); ++half) {
-    part[half].assign(static_cast<std::size_t>(unknowns(half) + Band::excess(bandwidth_)), 0.0);
+    part[half].assign(static_cast<std::size_t>(unknowns(half)) + static_cast<std::size_t>(Band::excess(bandwidth_)),
+                      0.0);
   }
   std::copy_n(x.begin(), unknowns(0), part[0].begin());
   std::copy_n(x.rbegin(), ends_[1], part[1].begin());
