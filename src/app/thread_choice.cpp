@@ -73,8 +73,10 @@ void ThreadChoice::judge(bool late) {
     next_wait_ = shortest_wait;
   } else if (against_other_ == enough || (late && !better)) {
     // The step that made the trial was just long, and others may be; but a stop of the machine is not to count.
-    double& last = last_seconds_[other_];
-    last = std::clamp(late_seconds_, last, 2 * last);
+    if (late_seconds_ > 0) {
+      double& last = last_seconds_[other_];
+      last = std::clamp(late_seconds_, last, 2 * last);
+    }
     down_next_ = other_ > in_use_;
     wait_ = next_wait_;
     next_wait_ = std::min(2 * next_wait_, longest_wait);
