@@ -13,8 +13,8 @@ namespace quicksand {
 /// what is in use.
 ///
 /// On a busy machine a step may take ten times as long with all threads as with one, since each loop waits for the last
-/// of them. Hence steps have a time limit, after which fewer threads finish them. One that runs into it loses its
-/// trial, or begins one.
+/// of them. Hence steps have a time limit, after which fewer threads finish them. A larger number on trial that runs
+/// into it has lost; one in use is put on trial, where it loses those pairs in which it does so again.
 class ThreadChoice {
  public:
   /// \param most   threads that may be used, at least 1
